@@ -81,6 +81,14 @@ class Editor:
             if event[1] == kind and wanted(event[2]):
                 return event[0], event[2]
 
+    def wait_until_quiet(self, seconds=2):
+        """Until nothing has come for so long; what came is kept in `seen`."""
+        while True:
+            try:
+                self.seen.append(self.events.get(timeout=seconds))
+            except queue.Empty:
+                return
+
     def forget_events(self):
         while not self.events.empty():
             self.events.get()

@@ -20,16 +20,24 @@ int coarse_level(const SharedWork& s) {
 }
 
 /// Lets people see a level. Its pixels are those of the same level of the exemplar: each stands for the middle of a
-/// block.
+/// block. Streaks are drawn out as they lie; where they end is only decided at the finest level.
 void show_level(const SharedWork& s, int level, const Field& field) {
+  if (!s.task.is_previewed()) return;
   const Appearance& appearance = *s.index.appearance();
   const Size size = appearance.size();
-  // A surface of streaks is drawn out only at the end.
-  if (!s.task.is_previewed() || appearance.repeats().streaks.any()) return;
-  const auto middle = [&](int at, int side) { return uint16_t(std::min(side - 1, ((2 * at + 1) << level) / 2)); };
-  std::vector<ExemplarPixel> pixels = field.pixels;
-  for (ExemplarPixel& p : pixels) p = {middle(p.x, size.width), middle(p.y, size.height)};
-  s.task.preview(UvMap::make(field.size, size, std::move(pixels),
+  const int x_step = appearance.repeats().streaks.x, y_step = appearance.repeats().streaks.y;
+  const auto middle = [&](int at, int step, int within, int side) {
+    return uint16_t(std::min(side - 1, (((at * step + within) * 2 + 1) << level) / 2));
+  };
+  Field shown{{field.size.width * x_step, field.size.height * y_step}, {}};
+  shown.pixels.reserve(size_t(shown.size.area()));
+  for (int y = 0; y < shown.size.height; y++)
+    for (int x = 0; x < shown.size.width; x++) {
+      const ExemplarPixel p = field.at(x / x_step, y / y_step);
+      shown.pixels.push_back(
+          {middle(p.x, x_step, x % x_step, size.width), middle(p.y, y_step, y % y_step, size.height)});
+    }
+  s.task.preview(UvMap::make(shown.size, size, std::move(shown.pixels),
                              {s.options.tile_x, s.options.tile_y, appearance.wraps()}, appearance.fingerprint()));
 }
 

@@ -240,6 +240,7 @@ const std::map<std::string, Act, std::less<>>& acts() {
                                                               {"set", edits::set},
                                                               {"unset", edits::unset},
                                                               {"parameter", edits::set_parameter},
+                                                              {"preset", edits::set_preset},
                                                               {"value", edits::set_default},
                                                               {"input", edits::set_input},
                                                               {"output", edits::set_output},

@@ -104,6 +104,7 @@ void disconnect(EditContext& context);
 void set(EditContext& context);
 void unset(EditContext& context);
 void set_parameter(EditContext& context);
+void set_preset(EditContext& context);
 void set_default(EditContext& context);
 void set_input(EditContext& context);
 void set_output(EditContext& context);

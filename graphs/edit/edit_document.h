@@ -27,21 +27,23 @@ struct EditedText {
 /// Applies changes in order, all or none. Each is an object with the member "op", by default in the document's own
 /// nodes; "level" names an entry of the section `graphs`.
 ///
-/// | op         | members                                                                                             |
-/// |------------|-----------------------------------------------------------------------------------------------------|
-/// | add        | type, name?, values?, behind?: {node, output?} | | remove     | nodes: [..] | | connect    | from:
-/// "node" or "node.port", to, port, index? (in a list port: inserted there, else appended)         | | disconnect |
-/// node, port, index?                                                                                  | | set, unset |
-/// node, key, value; without node: summary, help or seed of the graph                                   | | parameter
-/// | name, set: {..} or null, rename?: the declaration of a parameter; a member that is null goes away     | | value |
-/// name, value: the default of a parameter                                                              | | input |
-/// name, set: {..} or null: an input of the graph                                                      | | output     |
-/// name, from or null: an output of the graph, "node" or "node.port"                                   | | rename     |
-/// node, to: wires, expressions, outputs and presets follow                                            | | group      |
-/// nodes: [..], name                                                                                   | | ungroup    |
-/// node                                                                                                | | paste      |
-/// text: as copied_nodes returns it                                                                    | | insert     |
-/// node, wire: {node, port, index?}                                                                    |
+/// | op         | members                                                                                   |
+/// |------------|-------------------------------------------------------------------------------------------|
+/// | add        | type, name?, values?, behind?: {node, output?}                                            |
+/// | remove     | nodes: [..]                                                                               |
+/// | connect    | from: "node" or "node.port", to, port, index? (in a list port: inserted there, else last) |
+/// | disconnect | node, port, index?                                                                        |
+/// | set, unset | node, key, value; without node: summary, help or seed of the graph                        |
+/// | parameter  | name, set: {..} or null, rename?: its declaration; a member that is null goes away        |
+/// | value      | name, value: the default of a parameter                                                   |
+/// | preset     | name, set: {help?, set?} or null, rename?; a member that is null goes away                |
+/// | input      | name, set: {..} or null: an input of the graph                                            |
+/// | output     | name, from or null: an output of the graph, "node" or "node.port"                         |
+/// | rename     | node, to: wires, expressions, outputs and presets follow                                  |
+/// | group      | nodes: [..], name                                                                         |
+/// | ungroup    | node                                                                                      |
+/// | paste      | text: as copied_nodes returns it                                                          |
+/// | insert     | node, wire: {node, port, index?}                                                          |
 ///
 /// `file`: the document's path, absolute; its folder is where graph files used as types are looked for. Throws Error
 /// with a message for the user if a change is not possible; about() is then the JSON pointer of the part concerned, or

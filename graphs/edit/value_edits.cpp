@@ -150,6 +150,26 @@ void set_parameter(EditContext& context) {
   context.label("change the parameter " + in_quotes(name));
 }
 
+void set_preset(EditContext& context) {
+  const std::string& name = context.text("name");
+  const std::string to = context.text_or_empty("rename");
+  if (!context.level.empty())
+    throw Error("presets belong to the whole graph: those of a subgraph are set where it is used");
+  const JsonValue* presets = context.graph().find("presets");
+  const JsonValue* set = context.change->find("set");
+  if (name.empty()) throw Error("a preset needs a name");
+  if ((!set || set->kind == JsonValue::Kind::null) && (!presets || !presets->find(name)))
+    throw Error(fmt::format("the graph has no preset {}", in_quotes(name)));
+  if (!to.empty() && to != name) {
+    if (presets && presets->find(to))
+      throw Error(context.pointer({"presets", to}), fmt::format("there is a preset {} already", in_quotes(to)));
+    for (JsonMember& m : context.section("presets").members)
+      if (m.name == name) m.name = to;
+  }
+  if (set) set_entry(context, "presets", to.empty() ? name : to);
+  context.label("change the preset " + in_quotes(name));
+}
+
 void set_default(EditContext& context) {
   const std::string& name = context.text("name");
   JsonValue* parameters = context.graph().find("parameters");

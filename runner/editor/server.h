@@ -68,6 +68,7 @@ class EditorServer final : private HttpHandler {
   Json files_in(const Json& request) const;
   Json save_picture(const Json& request) const;
   Json pixels_of(const Json& request);
+  Json piece_of(const Json& request);
   Json start_run(const Json& request);
 
   DocumentAccess& document_;

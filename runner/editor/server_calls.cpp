@@ -5,6 +5,7 @@
 
 #include "core/base/base64.h"
 #include "core/file/atomic_file.h"
+#include "runner/editor/previews/uv_piece.h"
 #include "runner/editor/server.h"
 
 namespace terrazzo {
@@ -79,10 +80,17 @@ void EditorServer::add_calls() {
          runs_->cancel();
          return Json::object();
        }},
+      {"sweep", [this](const Json& request) { return runs_->sweep(request); }},
+      {"end_sweep",
+       [this](const Json&) {
+         runs_->end_sweep();
+         return Json::object();
+       }},
       {"plan", [this](const Json&) { return runs_->plan(); }},
       {"files", [this](const Json& request) { return files_in(request); }},
       {"save_picture", [this](const Json& request) { return save_picture(request); }},
       {"pixels", [this](const Json& request) { return pixels_of(request); }},
+      {"piece", [this](const Json& request) { return piece_of(request); }},
   };
 }
 
@@ -154,6 +162,24 @@ Json EditorServer::pixels_of(const Json& request) {
   std::vector<float> values(size_t(region.width) * size_t(region.height) * size_t(image->channels()));
   image->read(region, values.data());
   return {{"channels", image->channels()}, {"values", values}};
+}
+
+/// Of a uv map whose picture is shown: {digest, x, y, exemplar: {width, height}}.
+Json EditorServer::piece_of(const Json& request) {
+  const ImagePtr image = pictures_.image(asked_text(request, "digest"));
+  if (!image) throw Error("this picture's values are not at hand any more");
+  const int x = asked_number(request, "x"), y = asked_number(request, "y");
+  if (x < 0 || y < 0 || x >= image->width() || y >= image->height())
+    throw Error(fmt::format("expected a pixel inside of {}x{}", image->width(), image->height()));
+  const Json exemplar = request.value("exemplar", Json::object());
+  const UvPiece piece = uv_piece_at(*image, {asked_number(exemplar, "width"), asked_number(exemplar, "height")}, x, y);
+  Json runs = Json::array();
+  for (const UvPiece::Run& r : piece.runs) {
+    runs.push_back(r.y);
+    runs.push_back(r.begin);
+    runs.push_back(r.end);
+  }
+  return {{"shift", piece.shift}, {"area", piece.area}, {"whole", piece.is_whole}, {"runs", std::move(runs)}};
 }
 
 }  // namespace terrazzo

@@ -36,6 +36,14 @@ ordered_json parameter_as_json(const GraphParameter& p) {
   return out;
 }
 
+/// By target, "seed" or "node.parameter".
+ordered_json values_of(const Preset& preset) {
+  ordered_json out = ordered_json::object();
+  for (const Override& o : preset.set)
+    out[o.node.empty() ? o.name : o.node + "." + o.name] = o.json ? json_of_value(*o.json) : ordered_json(o.value);
+  return out;
+}
+
 TypeAsJson type_as_json(const NodeType& type) {
   TypeAsJson out{ordered_json::array(), ordered_json::array(), ordered_json::array()};
   for (const Port& p : type.inputs) out.inputs.push_back(port_as_json(p));
@@ -82,6 +90,7 @@ class StateWriter {
     for (const auto& [node, values] : inspected.values) values_.emplace(without_labels(node), &values);
     std::vector<Problem> ignored;
     if (const JsonValue* section = document.find("presets")) presets_ = read_presets(*section, {}, "", true, ignored);
+    for (const Preset& p : presets_) own_presets_.insert(p.name);
     for (Preset& p : presets_beside(snapshot.file, ignored)) presets_.push_back(std::move(p));
   }
 
@@ -133,7 +142,11 @@ class StateWriter {
           {{"name", o.port.name}, {"type", name_of(o.port.type)}, {"from", o.from.text}, {"help", o.port.help}});
     out["presets"] = ordered_json::array();
     if (name.empty())
-      for (const Preset& p : presets_) out["presets"].push_back({{"name", p.name}, {"summary", p.help}});
+      for (const Preset& p : presets_) {
+        const bool is_here = own_presets_.contains(p.name);
+        out["presets"].push_back(
+            {{"name", p.name}, {"summary", p.help}, {"beside", !is_here}, {"values", values_of(p)}});
+      }
     const LevelLayout& layout = layout_[name];
     ordered_json nodes = ordered_json::array();
     if (const JsonValue* all = json.find("nodes"))
@@ -226,6 +239,7 @@ class StateWriter {
   std::map<std::string, const Params*> values_;
   std::map<std::string, std::string> paths_;  ///< by level
   std::vector<Preset> presets_;
+  std::set<std::string> own_presets_;  ///< those in the document, rather than in the file beside it
   std::vector<Problem> ignored_;
   KnownTypes types_{node_types()};
   Subgraphs graphs_{types_, document_migrations(), ignored_};
@@ -310,10 +324,7 @@ ordered_json preset_json(const DocumentSnapshot& d, const std::string& name) {
   for (Preset& p : presets_beside(d.file, ignored)) presets.push_back(std::move(p));
   const auto at = std::ranges::find(presets, name, &Preset::name);
   if (at == presets.end()) throw Error(fmt::format("the graph has no preset {}", in_quotes(name)));
-  ordered_json values = ordered_json::object();
-  for (const Override& o : at->set)
-    values[o.node.empty() ? o.name : o.node + "." + o.name] = o.json ? json_of_value(*o.json) : ordered_json(o.value);
-  return {{"values", std::move(values)}};
+  return {{"values", values_of(*at)}};
 }
 
 }  // namespace terrazzo

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "core/base/base64.h"
 #include "core/base/text.h"
@@ -35,26 +36,49 @@ struct Range {
   float least = 0, most = 1;
 };
 
-/// Each pixel of the result is the mean of the pixels it covers. Sets `range` to the range of the values.
+/// Each pixel of the result is the mean of the pixels it covers. Sets `range` to the range of the values. Lazy pixels
+/// are computed by all threads, some rows at a time.
 std::vector<float> means(const Image& image, Size size, int channels, Range& range) {
+  constexpr int64_t most_rows = 64, most_values = 1 << 21;
   const int from = image.channels(), common = std::min(from, channels);
-  const auto to_small = [](int at, int all, int few) { return static_cast<int>(int64_t{at} * few / all); };
-  std::vector<double> sums(static_cast<size_t>(size.area()) * channels, 0.0);
-  std::vector<int> counts(static_cast<size_t>(size.area()), 0);
-  for_each_strip(image, [&](const Rect& region, const float* pixels) {
-    for (int y = region.y; y < region.bottom(); y++)
-      for (int x = 0; x < region.width; x++, pixels += from) {
-        const size_t at = static_cast<size_t>(to_small(y, image.height(), size.height)) * size.width +
-                          static_cast<size_t>(to_small(x, image.width(), size.width));
-        counts[at]++;
-        for (int c = 0; c < common; c++) sums[at * channels + c] += pixels[c];
+  const int64_t width = image.width(), height = image.height();
+  std::vector<size_t> column;  // by column of the image
+  for (int64_t x = 0; x < width; x++) column.push_back(static_cast<size_t>(x * size.width / width));
+  const int64_t rows = std::clamp<int64_t>(most_values / (width * from), 1, most_rows);
+  const int64_t band = std::max<int64_t>(1, rows * size.height / height);
+  const auto first_row = [&](int64_t row) { return (row * height + size.height - 1) / size.height; };
+  std::vector<float> out(static_cast<size_t>(size.area()) * channels);
+  const Task& task = CurrentTask::task();
+  tbb::parallel_for(int64_t{0}, (size.height + band - 1) / band, [&](int64_t part) {
+    const CurrentTask scope(task);
+    const int64_t begin = part * band, end = std::min<int64_t>(size.height, begin + band);
+    std::vector<double> sums(static_cast<size_t>((end - begin) * size.width) * channels, 0.0);
+    std::vector<int> counts(static_cast<size_t>((end - begin) * size.width), 0);
+    std::vector<float> buffer;
+    for (int64_t y = first_row(begin); y < first_row(end); y += rows) {
+      task.check();
+      const Rect strip{0, static_cast<int>(y), image.width(), static_cast<int>(std::min(rows, first_row(end) - y))};
+      const float* pixels = image.in_memory();
+      if (pixels) {
+        pixels += y * width * from;
+      } else {
+        buffer.resize(static_cast<size_t>(strip.area()) * from);
+        image.read(strip, buffer.data());
+        pixels = buffer.data();
       }
+      for (int64_t i = y; i < strip.bottom(); i++) {
+        const auto row = static_cast<size_t>((i * size.height / height - begin) * size.width);
+        for (const size_t at : column) {
+          counts[row + at]++;
+          for (int c = 0; c < common; c++) sums[(row + at) * channels + c] += pixels[c];
+          pixels += from;
+        }
+      }
+    }
+    float* to = &out[static_cast<size_t>(begin * size.width) * channels];
+    for (size_t i = 0; i < sums.size(); i++) to[i] = static_cast<float>(sums[i] / counts[i / channels]);
   });
-  std::vector<float> out(sums.size());
-  for (size_t i = 0; i < sums.size(); i++) {
-    out[i] = static_cast<float>(sums[i] / counts[i / channels]);
-    range = {std::min(range.least, out[i]), std::max(range.most, out[i])};
-  }
+  for (const float v : out) range = {std::min(range.least, v), std::max(range.most, v)};
   return out;
 }
 

@@ -32,8 +32,9 @@ class Bench:
     def __init__(self, editor):
         self.editor = editor
 
-    def set(self, node, key, value):
-        self.editor.forget_events()
+    def set(self, node, key, value, forgets=True):
+        if forgets:
+            self.editor.forget_events()
         start = time.monotonic()
         edit = {"op": "set", "node": node, "key": key, "value": value} if node else {"op": "value", "name": key, "value": value}
         self.editor.call("edit", base=0, label="bench", edits=[edit])
@@ -68,22 +69,21 @@ class Bench:
                 f"{statistics.median(whole):.2f} |")
         print(line, flush=True)
 
-    def drag(self):
-        """Sixty changes in a second, as a slider makes them."""
+    def drag(self, what, node, key, values):
+        """Two seconds of changes, sixty a second, as a slider makes them."""
         self.editor.forget_events()
-        for seed in range(60):
-            edit = {"op": "value", "name": "seed", "value": 1000 + seed}
-            start = time.monotonic()
-            self.editor.call("edit", base=0, label="drag", edits=[edit])
+        for value in values:
+            start = self.set(node, key, value, forgets=False)
             time.sleep(max(0.0, 1 / 60 - (time.monotonic() - start)))
-        first = self.seen(start, coarse=True)
+        last = start
+        while not self.editor.events.empty():
+            self.editor.seen.append(self.editor.events.get())
+        on_the_way = sum(1 for _, kind, data in self.editor.seen if kind == "picture" and is_result(data))
+        self.editor.wait_until_quiet()
+        whole = max(at for at, kind, data in self.editor.seen
+                    if kind == "picture" and is_result(data) and not data["coarse"]) - last
         begun = sum(1 for _, kind, data in self.editor.seen if kind == "start" and data["node"] == "layout")
-        shown = sum(1 for _, kind, data in self.editor.seen if kind == "picture" and is_result(data))
-        whole = self.seen(start, coarse=False)
-        self.idle()
-        ended = sum(1 for _, kind, data in self.editor.seen if kind == "done" and data["node"] == "layout")
-        print(f"\nSixty changes of the seed in a second: {begun} syntheses begun, {ended} ended, {shown} pictures on the "
-              f"way; after the last change {first:.2f} s to the first picture, {whole:.2f} s to the true one.")
+        print(f"| {what} | {len(values)} | {on_the_way} | {begun} | {whole:.2f} |", flush=True)
 
 
 def main():
@@ -116,7 +116,9 @@ def main():
             bench.measure("`blend`, which only resolves", "", "blend", [1 + 0.1 * i for i in range(CHANGES)])
             bench.measure("`tones`, which only resolves", "", "tones", [0.01 * i for i in range(1, CHANGES + 1)])
             bench.measure("the seed again, as it was: from the cache", "", "seed", range(CHANGES, 0, -1))
-            bench.drag()
+            print("\n| drag of 2 s | changes | pictures on the way | syntheses begun | true picture after it, s |\n|---|---|---|---|---|")
+            bench.drag("the seed, behind the index", "", "seed", range(1000, 1120))
+            bench.drag("`blend`, which only resolves", "", "blend", [1 + i / 40 for i in range(120)])
             editor.stop()
 
 

@@ -2,5 +2,6 @@
 import { runAll } from './harness.mjs';
 import './building.mjs';
 import './living.mjs';
+import './looking.mjs';
 
 await runAll(process.argv[5]);

@@ -27,7 +27,8 @@ void leave_out_open(Graph& graph) {
   std::erase_if(graph.nodes, [&](const GraphNode& n) { return open.contains(n.name); });
 }
 
-std::shared_ptr<const LoadedGraph> load_within(const std::string& text, const fs::path& file, const Sandbox& sandbox) {
+std::shared_ptr<const LoadedGraph> load_within(const std::string& text, const fs::path& file, const Sandbox& sandbox,
+                                               const std::vector<Override>& overrides = {}) {
   const auto look_ahead = [&](const std::vector<GraphNode>& nodes) {
     std::vector<Problem> problems = sandbox_problems(nodes, sandbox);
     return problems.empty() ? preflight_of_nodes(nodes) : problems;
@@ -35,7 +36,7 @@ std::shared_ptr<const LoadedGraph> load_within(const std::string& text, const fs
   std::shared_ptr<LoadedGraph> out;
   within(sandbox, [&] {
     out = std::make_shared<LoadedGraph>(
-        load_graph_text(text, file, {}, {.allow_unset = true, .keep_going = true, .look_ahead = look_ahead}));
+        load_graph_text(text, file, overrides, {.allow_unset = true, .keep_going = true, .look_ahead = look_ahead}));
   });
   leave_out_open(out->graph);
   return out;
@@ -138,6 +139,35 @@ bool is_within(const LoadedGraph& loaded, const Sandbox& sandbox, std::vector<Pr
 void within(const Sandbox& sandbox, const std::function<void()>& act) {
   const ReadGuard guard([&](const fs::path& path) { sandbox.check("read", path); });
   act();
+}
+
+std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names) {
+  std::set<std::string> out;
+  const auto add_sources = [&](const GraphNode& sink) {
+    for (const auto& [port, wires] : sink.inputs)
+      for (const Wire& w : wires) out.insert(w.node);
+  };
+  for (const GraphNode& n : graph.nodes) {
+    const bool is_meant =
+        names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return stands_for(name, n.name); });
+    if (!is_meant) continue;
+    if (n.type->is_sink())
+      add_sources(n);
+    else if (!names.empty())
+      out.insert(n.name);
+  }
+  if (out.empty())  // a graph without sinks
+    for (const GraphNode& n : graph.nodes)
+      if (names.empty() && !n.type->is_sink()) out.insert(n.name);
+  return {out.begin(), out.end()};
+}
+
+EditedGraph load_variation(const std::string& text, const fs::path& file, std::vector<Override> overrides,
+                           const Sandbox& sandbox) {
+  for (Override& o : overrides) o.base = file.parent_path();
+  EditedGraph out{.loaded = load_within(text, file, sandbox, overrides)};
+  if (!is_within(*out.loaded, sandbox, out.problems)) throw GraphError(file.string(), out.problems);
+  return out;
 }
 
 EditedGraph load_for_editing(const std::string& text, const fs::path& file, const std::vector<NodeOfDocument>& wanted,

@@ -15,7 +15,7 @@ namespace terrazzo {
 struct EditedGraph {
   std::shared_ptr<const LoadedGraph> loaded;  ///< null if nothing can be loaded
   bool is_part = false;  ///< only nodes without mistakes were loaded: places in messages are not those of the document
-  std::vector<Problem> problems;
+  std::vector<Problem> problems{};
   /// Parameters that have no value yet, as warnings: nodes that need them are left out of the graph.
   std::vector<Problem> unset{};
 };
@@ -24,6 +24,14 @@ struct EditedGraph {
 /// throws because of the document.
 EditedGraph load_for_editing(const std::string& text, const std::filesystem::path& file,
                              const std::vector<NodeOfDocument>& wanted, const Sandbox& sandbox);
+
+/// Loads a document without mistakes with other values, as `run --set` does; their relative paths are the document's.
+/// Throws GraphError and Error.
+EditedGraph load_variation(const std::string& text, const std::filesystem::path& file, std::vector<Override> overrides,
+                           const Sandbox& sandbox);
+
+/// What to run instead of these nodes, or of all nodes, so that no sink runs: of a sink what it reads.
+std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names);
 
 /// Runs `act`, which reads files that a graph names, with the sandbox's ReadGuard.
 void within(const Sandbox& sandbox, const std::function<void()>& act);

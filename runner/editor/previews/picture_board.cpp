@@ -53,7 +53,10 @@ bool PictureBoard::confirm(const Wish& wish, const std::map<std::string, Digest>
   return true;
 }
 
-void PictureBoard::send(const Wish& wish, const std::string& output, const std::string& map, const Json& event) {
+void PictureBoard::send(const Wish& wish, const std::string& output, const std::string& map, const Json& event,
+                        const std::atomic<bool>& cancelled) {
+  const std::lock_guard order(sending_);
+  check(cancelled);
   {
     const std::lock_guard lock(mutex_);
     shown_[{wish.at, output}].events[map] = event.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -66,9 +69,9 @@ void PictureBoard::show(const Wish& wish, const std::string& output, const Value
   const Task task(&cancelled, {});
   const CurrentTask scope(task);
   std::vector<ShownImage> images = shown_images(value, wish.side);
-  if (!wish.is_looked_at && images.size() > 1) images.resize(1);
   const auto wanted = std::ranges::find(images, wish.map, &ShownImage::map);
   if (!wish.map.empty() && wanted != images.end()) std::rotate(images.begin(), wanted, wanted + 1);
+  if (!wish.is_looked_at && images.size() > 1) images.resize(1);
   std::set<std::string> maps;
   for (size_t i = 0; i < images.size(); i++) {
     check(cancelled);
@@ -92,8 +95,8 @@ void PictureBoard::show(const Wish& wish, const std::string& output, const Value
                   {"coarse", false},
                   {"semantic", one.semantic},
                   {"stale", false}});
-    check(cancelled);
-    send(wish, output, one.map, event);
+    if (one.exemplar) event["exemplar"] = {{"width", one.exemplar->width}, {"height", one.exemplar->height}};
+    send(wish, output, one.map, event, cancelled);
     maps.insert(one.map);
   }
   const std::lock_guard lock(mutex_);
@@ -102,7 +105,8 @@ void PictureBoard::show(const Wish& wish, const std::string& output, const Value
   std::erase_if(shown.events, [&](const auto& event) { return !maps.contains(event.first); });
 }
 
-void PictureBoard::show_coarse(const Wish& wish, const std::string& output, const ImagePtr& image, Size full) {
+void PictureBoard::show_coarse(const Wish& wish, const std::string& output, const ImagePtr& image, Size full,
+                               const std::atomic<bool>& cancelled) {
   const std::string digest = store_.add(picture_file(*image));
   // A material's base colour comes first, and has the name of its map.
   const bool is_drawing = image->info().color_space == "raw";
@@ -116,6 +120,8 @@ void PictureBoard::show_coarse(const Wish& wish, const std::string& output, cons
                 {"coarse", true},
                 {"semantic", is_drawing ? "uv" : "base_color"},
                 {"stale", false}});
+  const std::lock_guard order(sending_);
+  check(cancelled);
   publish_("picture", event, false);
   const std::lock_guard lock(mutex_);
   shown_[{wish.at, output}].identity.clear();

@@ -30,8 +30,9 @@ class PictureBoard {
   bool confirm(const Wish& wish, const std::map<std::string, Digest>& outputs);
   /// Shows an output's value. Throws Cancelled, and Error if pixels cannot be computed.
   void show(const Wish& wish, const std::string& output, const Value& value, const std::atomic<bool>& cancelled);
-  /// Shows what an output will roughly be. `full`: the size of the result.
-  void show_coarse(const Wish& wish, const std::string& output, const ImagePtr& image, Size full);
+  /// Shows what an output will roughly be. `full`: the size of the result. Nothing once it is cancelled.
+  void show_coarse(const Wish& wish, const std::string& output, const ImagePtr& image, Size full,
+                   const std::atomic<bool>& cancelled);
   /// Forgets the pictures of all other nodes.
   void retain(const std::vector<Wish>& wishes);
   /// The data of the events "picture" that bring a new tab up to date.
@@ -43,10 +44,12 @@ class PictureBoard {
     std::map<std::string, std::string> events;  ///< by map
   };
   using Place = std::pair<NodeOfDocument, std::string>;
-  void send(const Wish& wish, const std::string& output, const std::string& map, const nlohmann::ordered_json& event);
+  void send(const Wish& wish, const std::string& output, const std::string& map, const nlohmann::ordered_json& event,
+            const std::atomic<bool>& cancelled);
 
   PictureStore& store_;
   PublishEvent publish_;
+  std::mutex sending_;  // what is sent after a cancellation comes after what was cancelled
   mutable std::mutex mutex_;
   std::map<Place, Output> shown_;
 };

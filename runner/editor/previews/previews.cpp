@@ -133,11 +133,8 @@ void Previews::show_ready(const EditedGraph& edited, const std::vector<PreviewTa
 /// Shows the levels of a uv map as they are made, in a thread of its own: the one that makes them goes on.
 class Previews::CoarseLook {
  public:
-  CoarseLook(Previews& owner, const Graph& graph, std::vector<PreviewTarget> targets,
-             const std::atomic<bool>& cancelled)
-      : owner_(owner), graph_(graph), targets_(std::move(targets)), cancelled_(cancelled), thread_([this] {
-          work();
-        }) {}
+  CoarseLook(Previews& owner, const Graph& graph, const std::vector<PreviewTarget>& targets, GracePeriod& time)
+      : owner_(owner), graph_(graph), targets_(targets), time_(time), thread_([this] { work(); }) {}
   ~CoarseLook() { stop(); }
   CoarseLook(const CoarseLook&) = delete;
   CoarseLook& operator=(const CoarseLook&) = delete;
@@ -188,7 +185,7 @@ class Previews::CoarseLook {
   ImagePtr exemplar_for(const std::string& maker) {
     ImagePtr& picture = exemplars_[maker];
     const std::optional<Wire> wire = picture ? std::nullopt : exemplar_of(graph_, maker);
-    if (wire) picture = owner_.exemplars_.find(graph_, *wire, owner_.session_, owner_.sandbox_, cancelled_);
+    if (wire) picture = owner_.exemplars_.find(graph_, *wire, owner_.session_, owner_.sandbox_, time_.cancelled());
     return picture;
   }
 
@@ -196,21 +193,23 @@ class Previews::CoarseLook {
     ImagePtr resolved;
     for (const PreviewTarget& t : targets_) {
       const bool shows_uv = t.node == maker;
-      if (cancelled_ || (!shows_uv && !resolves(graph_, t.node, maker))) continue;
+      if (time_.cancelled() || (!shows_uv && !resolves(graph_, t.node, maker))) continue;
       if (!shows_uv && !resolved)
         if (const ImagePtr exemplar = exemplar_for(maker)) resolved = resolved_coarsely(coarse, *exemplar);
       const ImagePtr picture = shows_uv || !resolved ? uv_in_colours(coarse, t.wish.side) : resolved;
       const ImagePtr display = shrunk_for_display(picture, t.wish.side);
       const std::lock_guard lock(mutex_);
-      if (stops_ || cancelled_) return;
-      owner_.board_.show_coarse(t.wish, graph_.find(t.node)->type->outputs.front().name, display, full);
+      if (stops_) return;
+      owner_.board_.show_coarse(t.wish, graph_.find(t.node)->type->outputs.front().name, display, full,
+                                time_.cancelled());
+      if (t.wish == targets_.front().wish) time_.shown();
     }
   }
 
   Previews& owner_;
   const Graph& graph_;
-  const std::vector<PreviewTarget> targets_;
-  const std::atomic<bool>& cancelled_;
+  const std::vector<PreviewTarget>& targets_;
+  GracePeriod& time_;
   std::map<std::string, ImagePtr> exemplars_;  // by the node that makes the uv map
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -219,18 +218,19 @@ class Previews::CoarseLook {
   std::thread thread_;
 };
 
-bool Previews::make(const EditedGraph& edited, const PreviewTarget& target, const std::vector<PreviewTarget>& others,
-                    const std::atomic<bool>& cancelled) {
+bool Previews::make(const EditedGraph& edited, const std::vector<PreviewTarget>& targets, GracePeriod& time) {
   const Graph& graph = edited.loaded->graph;
-  std::vector<PreviewTarget> targets = {target};
-  targets.insert(targets.end(), others.begin(), others.end());
-  RunRequest request{
-      .only = {target.node}, .keep = {target.node}, .keep_going = true, .sandbox = &sandbox_, .cancelled = &cancelled};
+  const PreviewTarget& target = targets.front();
+  RunRequest request{.only = {target.node},
+                     .keep = {target.node},
+                     .keep_going = true,
+                     .sandbox = &sandbox_,
+                     .cancelled = &time.cancelled()};
   Plan plan = session_.plan(graph, request);
   std::optional<CoarseLook> look;
   RunEvents::Coarse coarse;
   if (std::ranges::any_of(plan.stages, may_be_previewed)) {
-    look.emplace(*this, graph, targets, cancelled);
+    look.emplace(*this, graph, targets, time);
     coarse = [&look](const Stage& s, const UvMapPtr& uv) { look->add(s, uv); };
   }
   RunEvents events(publish_, edited.is_part, std::move(coarse));
@@ -238,7 +238,7 @@ bool Previews::make(const EditedGraph& edited, const PreviewTarget& target, cons
   const RunResult result = session_.run(std::move(plan), request);
   look.reset();
   if (result.cancelled) throw Cancelled();
-  return show_kept(result, {target}, cancelled) && result.failures.empty();
+  return show_kept(result, {target}, time.cancelled()) && result.failures.empty();
 }
 
 }  // namespace terrazzo

@@ -6,6 +6,7 @@
 
 #include "runner/api/session.h"
 #include "runner/editor/previews/coarse_look.h"
+#include "runner/editor/previews/grace.h"
 #include "runner/editor/previews/graph_loading.h"
 #include "runner/editor/previews/picture_board.h"
 
@@ -35,10 +36,9 @@ class Previews {
   PreviewTargets targets_of(const EditedGraph& graph, const std::string& text, const std::vector<Wish>& wishes);
   void show_ready(const EditedGraph& graph, const std::vector<PreviewTarget>& targets,
                   const std::atomic<bool>& cancelled);
-  /// Computes a target, and shows it; before that what it will roughly be, together with `others` that depend on it.
-  /// Runs no sink. Whether it succeeded.
-  bool make(const EditedGraph& graph, const PreviewTarget& target, const std::vector<PreviewTarget>& others,
-            const std::atomic<bool>& cancelled);
+  /// Computes the first target, and shows it; before that what it will roughly be, and so the others that depend on it.
+  /// Runs no sink. Whether it succeeded. Tells `time` what was shown, and ends when that says so.
+  bool make(const EditedGraph& graph, const std::vector<PreviewTarget>& targets, GracePeriod& time);
 
  private:
   class CoarseLook;

@@ -1,7 +1,6 @@
 #include "runner/editor/previews/runs.h"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
+// A drag shows some pictures a second, and the one of the place where it ends comes hardly later for those on the way:
+// tests/bench/performance.md, "The editor".
+constexpr std::chrono::milliseconds longest_stale{500}, longest_stale_shown{150};
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -33,28 +36,6 @@ bool are_same(const std::vector<Problem>& a, const std::vector<Problem>& b) {
     return x.message == y.message && x.node == y.node && x.where == y.where && x.place.line == y.place.line &&
            x.place.column == y.place.column;
   });
-}
-
-/// The nodes to run instead of sinks: what those read, and what nobody reads.
-std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names) {
-  std::set<std::string> out;
-  const auto add_sources = [&](const GraphNode& sink) {
-    for (const auto& [port, wires] : sink.inputs)
-      for (const Wire& w : wires) out.insert(w.node);
-  };
-  for (const GraphNode& n : graph.nodes) {
-    const bool is_meant =
-        names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return stands_for(name, n.name); });
-    if (!is_meant) continue;
-    if (n.type->is_sink())
-      add_sources(n);
-    else if (!names.empty())
-      out.insert(n.name);
-  }
-  if (out.empty())  // a graph without sinks
-    for (const GraphNode& n : graph.nodes)
-      if (names.empty() && !n.type->is_sink()) out.insert(n.name);
-  return {out.begin(), out.end()};
 }
 
 /// Loading it takes a while, which the first picture need not wait for.
@@ -78,7 +59,10 @@ Runs::Runs(Session& session, const Sandbox& sandbox, PictureStore& store, Publis
       publish_(std::move(publish)),
       found_(std::move(found)),
       board_(store, publish_),
-      previews_(session, sandbox, board_, publish_) {
+      previews_(session, sandbox, board_, publish_),
+      sweeps_(session, sandbox, store, publish_),
+      looking_(longest_stale, longest_stale_shown),
+      making_(longest_stale, longest_stale_shown) {
   look_thread_ = std::thread([this] { look_loop(); });
   make_thread_ = std::thread([this] { make_loop(); });
   full_thread_ = std::thread([this] { full_loop(); });
@@ -87,8 +71,10 @@ Runs::Runs(Session& session, const Sandbox& sandbox, PictureStore& store, Publis
 Runs::~Runs() {
   {
     const std::lock_guard lock(mutex_);
-    stops_ = look_cancelled_ = make_cancelled_ = run_cancelled_ = true;
+    stops_ = look_is_stale_ = run_cancelled_ = true;
     to_make_.clear();
+    looking_.cancel();
+    making_.cancel();
   }
   changed_.notify_all();
   look_thread_.join();
@@ -96,12 +82,18 @@ Runs::~Runs() {
   full_thread_.join();
 }
 
+void Runs::mark_dirty() {
+  is_dirty_ = look_is_stale_ = true;
+  looking_.set_stale(true);
+}
+
 void Runs::changed(std::string text, std::filesystem::path file) {
+  sweeps_.cancel();
   {
     const std::lock_guard lock(mutex_);
     text_ = std::move(text);
     file_ = std::move(file);
-    is_dirty_ = look_cancelled_ = true;
+    mark_dirty();
   }
   changed_.notify_all();
 }
@@ -110,7 +102,7 @@ void Runs::show(const Json& request) {
   {
     const std::lock_guard lock(mutex_);
     wishes_.set(request);
-    is_dirty_ = look_cancelled_ = true;
+    mark_dirty();
   }
   changed_.notify_all();
 }
@@ -119,19 +111,32 @@ void Runs::forget(const std::string& tab) {
   {
     const std::lock_guard lock(mutex_);
     if (!wishes_.forget(tab)) return;
-    is_dirty_ = look_cancelled_ = true;
+    mark_dirty();
   }
   changed_.notify_all();
 }
 
 void Runs::cancel() {
+  sweeps_.cancel();
   {
     const std::lock_guard lock(mutex_);
     to_make_.clear();
     asked_.reset();
-    make_cancelled_ = run_cancelled_ = true;
+    run_cancelled_ = true;
+    making_.cancel();
   }
   changed_.notify_all();
+}
+
+Json Runs::sweep(const Json& request) {
+  std::string text;
+  std::filesystem::path file;
+  {
+    const std::lock_guard lock(mutex_);
+    text = text_;
+    file = file_;
+  }
+  return sweeps_.start(request, text, file);
 }
 
 RunFindings Runs::findings() const {
@@ -144,6 +149,7 @@ std::vector<std::string> Runs::current_pictures() const {
 }
 
 bool Runs::wait_until_idle(std::chrono::milliseconds most) const {
+  if (!sweeps_.wait_until_idle(most)) return false;
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, most, [&] {
     return !is_dirty_ && !is_plan_old_ && !looks_ && to_make_.empty() && !makes_ && !asked_ && !runs_;
@@ -158,7 +164,8 @@ void Runs::look_loop() {
     const bool is_dirty = std::exchange(is_dirty_, false);
     is_plan_old_ = false;
     looks_ = true;
-    look_cancelled_ = false;
+    look_is_stale_ = false;
+    looking_.begin();
     const std::string text = text_;
     const std::filesystem::path file = file_;
     const std::vector<Wish> wishes = wishes_.all();
@@ -203,8 +210,8 @@ void Runs::look(const std::string& text, const std::filesystem::path& file, cons
   }
   const bool is_all = targets.slow.empty();
   hand_over(graph, std::move(targets.slow));
-  previews_.show_ready(*graph, targets.ready, look_cancelled_);
-  if (look_cancelled_) throw Cancelled();
+  previews_.show_ready(*graph, targets.ready, looking_.cancelled());
+  if (look_is_stale_) throw Cancelled();
   if (is_all)
     publish_("ran", {{"ok", true}, {"seconds", seconds_since(start)}, {"cancelled", false}, {"preview", true}}, false);
   tell_plan(*graph, true);
@@ -227,11 +234,11 @@ void Runs::tell_plan(const EditedGraph& edited, bool look_deeper) {
   } catch (const Error& e) {
     if (findings.errors.empty()) findings.errors.push_back({{}, "", e.what(), "", "", "input"});
   }
-  if (look_cancelled_) throw Cancelled();
+  if (look_is_stale_) throw Cancelled();
   publish_("plan", plan ? plan_json(*plan) : Json{{"stages", Json::array()}, {"summary", ""}}, true);
   if (!look_deeper) return;
   if (is_sound) {
-    const Task task(&look_cancelled_, {});
+    const Task task(&look_is_stale_, {});
     const CurrentTask scope(task);
     for (Problem& p : look_at_sources(graph, task).warnings) findings.warnings.push_back(std::move(p));
     for (Problem& p : lint_of(graph, task)) findings.warnings.push_back(std::move(p));
@@ -251,15 +258,19 @@ void Runs::set_findings(RunFindings findings) {
 void Runs::hand_over(std::shared_ptr<const EditedGraph> graph, std::vector<PreviewTarget> targets) {
   {
     const std::lock_guard lock(mutex_);
-    if (look_cancelled_) throw Cancelled();
-    if (being_made_) {
-      const auto same = std::ranges::find_if(targets, [&](const PreviewTarget& t) {
-        return t.recipe == being_made_->recipe && t.wish == being_made_->wish;
+    if (!being_made_.empty() && !making_.cancelled()) {
+      const PreviewTarget& first = being_made_.front();
+      const auto same = std::ranges::find_if(
+          targets, [&](const PreviewTarget& t) { return t.recipe == first.recipe && t.wish == first.wish; });
+      // What is shown already must not be covered by something older.
+      const bool all_come_anew = std::ranges::all_of(being_made_, [&](const PreviewTarget& t) {
+        return std::ranges::find(targets, t.wish, &PreviewTarget::wish) != targets.end();
       });
-      if (same != targets.end() && !make_cancelled_)
+      making_.set_stale(same == targets.end());
+      if (same != targets.end())
         targets.erase(same);
-      else
-        make_cancelled_ = true;
+      else if (!all_come_anew)
+        making_.cancel();
     }
     to_make_ = {std::move_iterator(targets.begin()), std::move_iterator(targets.end())};
     graph_to_make_ = std::move(graph);
@@ -274,24 +285,23 @@ void Runs::make_loop() {
     changed_.wait(lock, [&] { return stops_ || !to_make_.empty(); });
     if (stops_) return;
     if (!std::exchange(makes_, true)) start = Clock::now();
-    being_made_ = std::move(to_make_.front());
+    being_made_ = {to_make_.begin(), to_make_.end()};
     to_make_.pop_front();
-    const PreviewTarget target = *being_made_;
-    const std::vector<PreviewTarget> others(to_make_.begin(), to_make_.end());
+    const std::vector<PreviewTarget> targets = being_made_;
     const std::shared_ptr<const EditedGraph> graph = graph_to_make_;
-    make_cancelled_ = false;
+    making_.begin();
     lock.unlock();
     bool ok = false, is_cancelled = false;
     std::string message;
     try {
-      ok = previews_.make(*graph, target, others, make_cancelled_);
+      ok = previews_.make(*graph, targets, making_);
     } catch (const Cancelled&) {
       is_cancelled = true;
     } catch (const std::exception& e) {
       message = e.what();
     }
     lock.lock();
-    being_made_.reset();
+    being_made_.clear();
     if (!to_make_.empty()) continue;
     makes_ = false;
     is_plan_old_ = !is_cancelled;
@@ -333,7 +343,7 @@ void Runs::full_loop() {
     lock.lock();
     runs_ = false;
     // What it has computed can be shown.
-    is_dirty_ = look_cancelled_ = true;
+    mark_dirty();
     changed_.notify_all();
   }
 }

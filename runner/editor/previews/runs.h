@@ -13,9 +13,11 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "runner/api/session.h"
+#include "runner/editor/previews/grace.h"
 #include "runner/editor/previews/graph_loading.h"
 #include "runner/editor/previews/picture_board.h"
 #include "runner/editor/previews/previews.h"
+#include "runner/editor/previews/sweeps.h"
 #include "runner/editor/previews/wishes.h"
 
 namespace terrazzo {
@@ -26,8 +28,9 @@ struct RunFindings {
 };
 
 /// Runs an edited graph in the background: what tabs want to see, again after every change, and what the user asks for.
-/// Work that a change has made stale is cancelled at once and never queued; work whose result is the same goes on.
-/// Sinks run only in run(). Thread-safe.
+/// At most one change is worked on, and only the newest waits. What is under way when a change comes may show its first
+/// picture, so that pictures follow a slider, but takes no longer than GracePeriod allows; work whose result is the
+/// same goes on. Sinks run only in run(). Thread-safe.
 class Runs {
  public:
   /// `found` is called when findings() have changed; from any thread. Borrows the session and the sandbox.
@@ -48,6 +51,9 @@ class Runs {
   /// were meant, else only what they read. Throws Error for unknown nodes.
   void run(std::vector<NodeOfDocument> nodes, bool sinks);
   void cancel();
+  /// See Sweeps::start; a change of the document ends it.
+  nlohmann::ordered_json sweep(const nlohmann::ordered_json& request);
+  void end_sweep() { sweeps_.cancel(); }
 
   /// What a run of everything would do, and why, as in the event "plan".
   nlohmann::ordered_json plan();
@@ -62,12 +68,14 @@ class Runs {
     std::vector<NodeOfDocument> nodes;
     bool sinks = false;
   };
+  /// Something that pictures depend on has changed. Needs the lock.
+  void mark_dirty();
   void look_loop();
   void look(const std::string& text, const std::filesystem::path& file, const std::vector<Wish>& wishes);
   void tell_plan(const EditedGraph& graph, bool look_deeper);
   void set_findings(RunFindings findings);
   void make_loop();
-  /// What of the work is not stale goes on.
+  /// What of the work is not stale goes on; what is, as long as what it shows will be shown anew.
   void hand_over(std::shared_ptr<const EditedGraph> graph, std::vector<PreviewTarget> targets);
   void full_loop();
   void run_fully(const Asked& asked, const std::string& text, const std::filesystem::path& file);
@@ -78,6 +86,7 @@ class Runs {
   std::function<void()> found_;
   PictureBoard board_;
   Previews previews_;
+  Sweeps sweeps_;
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
@@ -92,9 +101,10 @@ class Runs {
 
   std::deque<PreviewTarget> to_make_;
   std::shared_ptr<const EditedGraph> graph_to_make_;
-  std::optional<PreviewTarget> being_made_;
+  std::vector<PreviewTarget> being_made_;  // first what is computed, then what its coarse forms are shown for
   std::optional<Asked> asked_;
-  std::atomic<bool> look_cancelled_{false}, make_cancelled_{false}, run_cancelled_{false};
+  GracePeriod looking_, making_;
+  std::atomic<bool> look_is_stale_{false}, run_cancelled_{false};
   std::thread look_thread_, make_thread_, full_thread_;
 };
 

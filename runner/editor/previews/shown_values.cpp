@@ -85,7 +85,7 @@ std::vector<ShownImage> shown_images(const Value& value, int longest) {
     }
     case ValueType::uv_map: {
       const UvMapPtr& uv = std::get<UvMapPtr>(value);
-      out.push_back({"", uv_in_colours(*uv, longest), "uv", uv->size(), false, uv_as_fractions(uv)});
+      out.push_back({"", uv_in_colours(*uv, longest), "uv", uv->size(), false, uv_as_fractions(uv), uv->exemplar()});
       break;
     }
     case ValueType::report:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct ShownImage {
   Size size;               ///< of the value: drawings of large ones are smaller
   bool has_values = true;  ///< whether pixels are those of the result, rather than a drawing of it
   ImagePtr values{};       ///< of a drawing: the pixels' values, if they have any; of a uv map uv_as_fractions()
+  std::optional<Size> exemplar{};  ///< of a uv map
 };
 
 /// What a page shows of a value: a material's base colour and its other maps; an image; a uv map in colours; pictures

@@ -1,6 +1,6 @@
 // A material on a plane, a ball or a cube under a light that moves: in reports and in the graph editor.
 import {
-  BackSide, BoxGeometry, BufferGeometry, Color, DirectionalLight, Mesh, MeshBasicMaterial, MeshStandardMaterial,
+  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, Mesh, MeshBasicMaterial, MeshStandardMaterial,
   PerspectiveCamera, PlaneGeometry, PMREMGenerator, RepeatWrapping, Scene, SphereGeometry, SRGBColorSpace, Texture, WebGLRenderer,
 } from 'three';
 
@@ -30,6 +30,26 @@ function surroundings(renderer: WebGLRenderer): Texture {
   const {texture} = generator.fromScene(scene, 0, 0.1, 100, {size: 64});
   generator.dispose();
   return texture;
+}
+
+// Sides of a cube, the poles of a ball and its seam show different heights at the same place: a surface that is displaced
+// by them would gape there. Displacement ends before these borders.
+function ended(geometry: BufferGeometry, margin: number): BufferGeometry {
+  const uv = geometry.getAttribute('uv'), share = new Float32Array(uv.count);
+  for (let i = 0; i < uv.count; ++i) {
+    const u = uv.getX(i), v = uv.getY(i), inside = margin ? Math.min(1, Math.max(0, Math.min(u, 1 - u, v, 1 - v) / margin)) : 1;
+    share[i] = inside * inside * (3 - 2 * inside);
+  }
+  return geometry.setAttribute('displaced', new BufferAttribute(share, 1));
+}
+function displaceByShare(material: MeshStandardMaterial) {
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = 'attribute float displaced;\n' + shader.vertexShader.replace('#include <displacementmap_vertex>', `
+#ifdef USE_DISPLACEMENTMAP
+  transformed += normalize(objectNormal) * displaced *
+    (texture2D(displacementMap, vDisplacementMapUv).x * displacementScale + displacementBias);
+#endif`);
+  };
 }
 
 function loaded(source: string, isColour: boolean): Promise<Texture | null> {
@@ -103,6 +123,7 @@ export class LitView {
     this.#described = described;
 
     const material = new MeshStandardMaterial({roughness: this.#textures.has('roughness') ? 1 : 0.8, metalness: 0});
+    displaceByShare(material);
     for (const [meaning, {texture}] of this.#textures) material[slots[meaning]] = texture;
     if (material.metalnessMap) material.metalness = 1;
     if (material.emissiveMap) material.emissive = new Color(1, 1, 1);
@@ -125,8 +146,10 @@ export class LitView {
   #reshape() {
     const {width: w, height: h} = this.#described, longer = Math.max(w, h), {shape} = this.settings;
     this.#mesh.geometry.dispose();
-    this.#mesh.geometry = shape === 'plane' ? new PlaneGeometry(2 * w / longer, 2 * h / longer, 256, 256)
-      : shape === 'sphere' ? new SphereGeometry(0.85, 384, 192) : new BoxGeometry(1.15, 1.15 * Math.min(1.4, h / w), 1.15, 128, 128, 128);
+    // A plane has no other side to meet.
+    this.#mesh.geometry = shape === 'plane' ? ended(new PlaneGeometry(2 * w / longer, 2 * h / longer, 256, 256), 0)
+      : shape === 'sphere' ? ended(new SphereGeometry(0.85, 384, 192), 0.02)
+        : ended(new BoxGeometry(1.15, 1.15 * Math.min(1.4, h / w), 1.15, 128, 128, 128), 0.03);
   }
 
   #apply() {

@@ -81,7 +81,10 @@ TEST_CASE("the state has the levels, their nodes, and what expressions come to")
   CHECK(named(top["parameters"], "size")["default"] == "=round([64, 32] * scale)");
   CHECK(named(top["parameters"], "size")["value"] == ordered_json{128, 64});
   CHECK(named(top["parameters"], "size")["pointer"] == "/parameters/size");
-  CHECK(top["presets"] == ordered_json::array({{{"name", "large"}, {"summary", "larger"}}}));
+  CHECK(top["presets"] == ordered_json::array({{{"name", "large"},
+                                                {"summary", "larger"},
+                                                {"beside", false},
+                                                {"values", {{"scale", 8}, {"exemplar.seed", 3}}}}}));
   CHECK(top["outputs"][0]["from"] == "@layout");
   CHECK(top["outputs"][0]["type"] == "uv_map");
   const ordered_json& exemplar = named(top["nodes"], "exemplar");

@@ -77,6 +77,12 @@ class WatchedRuns {
       if (e.at("node") == node && e.at("coarse") == coarse) out.push_back(e);
     return out;
   }
+  ImagePtr last_base_colour(const std::string& node) {
+    std::vector<Json> shown = pictures(node);
+    std::erase_if(shown, [](const Json& e) { return e.at("map") != "base_color"; });
+    REQUIRE(!shown.empty());
+    return store.image(shown.back().at("digest"));
+  }
   void forget_events() {
     const std::lock_guard lock(mutex_);
     events_.clear();
@@ -198,15 +204,30 @@ TEST_CASE("changes cancel what is stale and queue nothing") {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   watched.wait();
-  // A few were begun, fewer ended; each at most once.
   CHECK(watched.count("done", "layout") < last / 2);
-  const std::vector<Json> pictures = watched.pictures("result");
-  REQUIRE(!pictures.empty());
-  const auto shown = std::ranges::find(pictures.rbegin(), pictures.rend(), "base_color",
-                                       [](const Json& e) { return e.at("map").get<std::string>(); });
-  REQUIRE(shown != pictures.rend());
-  CHECK(watched.store.image(shown->at("digest"))->pixels() ==
+  CHECK(watched.last_base_colour("result")->pixels() ==
         base_colour_of_run(wall_text(last, 384), folder.path())->pixels());
+}
+
+TEST_CASE("pictures follow changes that come faster than they can be shown") {
+  const TemporaryFolder folder;
+  WatchedRuns watched(folder.path());
+  watched.change(wall_text(0, 384));
+  watched.look_at("result");
+  watched.wait();
+  watched.forget_events();
+  const auto shown = [&] { return watched.pictures("result", true).size() + watched.pictures("result").size(); };
+  const auto until = std::chrono::steady_clock::now() + long_time;
+  int seed = 0;
+  while (shown() < 3 && std::chrono::steady_clock::now() < until) {
+    watched.change(wall_text(++seed, 384));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  CHECK(shown() >= 3);
+  CHECK(int(watched.count("start", "layout")) < seed);
+  watched.wait();
+  CHECK(watched.last_base_colour("result")->pixels() ==
+        base_colour_of_run(wall_text(seed, 384), folder.path())->pixels());
 }
 
 TEST_CASE("a change that has no influence on what is being made lets it go on") {

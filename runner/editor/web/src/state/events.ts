@@ -2,6 +2,7 @@
 import type { DocumentState } from './protocol.ts';
 import { runs } from './runs.svelte.ts';
 import { session, tab } from './session.svelte.ts';
+import { sweep } from './sweep.svelte.ts';
 
 const checkEvery = 25_000;
 
@@ -24,6 +25,9 @@ export function listen(): () => void {
     on('plan', (plan: {stages: []; summary: string}) => runs.takePlan(plan));
     on('picture', (picture: never) => runs.takePicture(picture));
     on('ran', (how: never) => runs.ended(how));
+    on('sweep_picture', (event: never) => sweep.takePicture(event));
+    on('sweep_failed', (event: never) => sweep.takeFailure(event));
+    on('swept', (event: never) => sweep.ended(event));
     on('bye', () => { session.stopped = true; lost(); });
     for (const kind of ['start', 'progress', 'done', 'cached', 'failed', 'skipped', 'note'])
       on(kind, (event: never) => runs.takeEvent(kind, event));

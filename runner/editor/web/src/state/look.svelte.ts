@@ -3,6 +3,7 @@ import { canvas } from './canvas.svelte.ts';
 import type { Level, Picture } from './protocol.ts';
 import { runs } from './runs.svelte.ts';
 import { session } from './session.svelte.ts';
+import type { Piece } from '../view/piece.ts';
 import type { Point } from './ui.svelte.ts';
 
 export type Channel = 'all' | 'r' | 'g' | 'b' | 'a';
@@ -38,6 +39,8 @@ class Look {
   /// The pixel under the pointer.
   hover = $state.raw<Point | null>(null);
   values = $state.raw<number[] | null>(null);
+  /// Of a uv map, what the pixel under the pointer was taken from the exemplar together with.
+  piece = $state.raw<Piece | null>(null);
 
   name = $derived(runs.looked?.node ?? null);
   level = $derived(session.document?.levels[runs.looked?.level ?? '']);

@@ -19,9 +19,12 @@ export interface GraphNode {
 
 export interface Frame {id: string; title: string; x: number; y: number; width: number; height: number}
 
+/// `beside`: it lies in the file of presets beside the graph. Values by target: "seed", "node.parameter".
+export interface Preset {name: string; summary?: string; beside: boolean; values: Record<string, unknown>}
+
 export interface Level {
   summary: string; help: string; parameters: GraphParam[]; inputs: Port[];
-  outputs: {name: string; type: string; from: string}[]; presets: {name: string; summary?: string}[]; nodes: GraphNode[];
+  outputs: {name: string; type: string; from: string}[]; presets: Preset[]; nodes: GraphNode[];
   frames: Frame[];
 }
 
@@ -45,6 +48,7 @@ export interface NodeType {
 export interface Picture {
   level: string; node: string; output: string; map?: string; digest: string; url: string; small: string; width: number;
   height: number; of: 'preview' | 'full'; coarse: boolean; semantic: string; stale: boolean;
+  exemplar?: {width: number; height: number};  // of a uv map: the one that its values are places in
 }
 
 export interface PlannedStage {node: string; state: string; reason: string; seconds?: number}

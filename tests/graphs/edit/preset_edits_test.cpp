@@ -1,0 +1,69 @@
+#include <doctest/doctest.h>
+
+#include "core/base/error.h"
+#include "graphs/document/load.h"
+#include "graphs/edit/edit_document.h"
+#include "graphs/text/edit.h"
+
+using namespace terrazzo;
+
+namespace {
+
+const std::string without_presets = R"t({
+  "terrazzo": 1,
+  "parameters": {
+    "seed": {"type": "int", "default": 1},  // any
+    "size": {"type": "int", "default": 64}
+  },
+  "graphs": {"inner": {"nodes": {"grey": {"type": "solid"}}, "outputs": {"image": "@grey"}}},
+  "nodes": {"wall": {"type": "pattern", "seed": "$seed", "size": "$size"}}
+}
+)t";
+
+std::string after(const std::string& text, const std::string& edits) {
+  return edited(text, "/nowhere/wall.json", json_in("[" + edits + "]")).text;
+}
+
+/// The seed that the preset gives the node.
+int64_t seed_with(const std::string& text, const std::string& preset) {
+  const LoadedGraph loaded = load_graph_text(text, "/nowhere/wall.json", {}, {.presets = {preset}});
+  return std::get<int64_t>(loaded.graph.find("wall")->params.at("seed"));
+}
+
+}  // namespace
+
+TEST_CASE("presets are made, changed, renamed and removed") {
+  const std::string made =
+      after(without_presets, R"t({"op": "preset", "name": "late", "set": {"help": "later", "set": {"seed": 7}}})t");
+  CHECK(seed_with(made, "late") == 7);
+  CHECK(made.find("\"seed\": {\"type\": \"int\", \"default\": 1},  // any") != made.npos);
+  const std::string other = after(made, R"t({"op": "preset", "name": "early", "set": {"set": {"seed": 2}}})t");
+  CHECK(seed_with(other, "early") == 2);
+  CHECK(seed_with(other, "late") == 7);
+  // New values, and no help any more.
+  const std::string changed =
+      after(other, R"t({"op": "preset", "name": "late", "set": {"help": null, "set": {"seed": 9}}})t");
+  CHECK(seed_with(changed, "late") == 9);
+  CHECK(changed.find("later") == changed.npos);
+  const std::string renamed = after(changed, R"t({"op": "preset", "name": "late", "rename": "last one"})t");
+  CHECK(seed_with(renamed, "last one") == 9);
+  CHECK_THROWS_AS(seed_with(renamed, "late"), Error);
+  // They follow their parameters.
+  const std::string followed = after(renamed, R"t({"op": "parameter", "name": "seed", "rename": "luck"})t");
+  CHECK(seed_with(followed, "last one") == 9);
+  const std::string removed = after(after(changed, R"t({"op": "preset", "name": "late", "set": null})t"),
+                                    R"t({"op": "preset", "name": "early", "set": null})t");
+  CHECK(removed == without_presets);
+}
+
+TEST_CASE("presets that cannot be are refused") {
+  const std::string text = after(without_presets, R"t({"op": "preset", "name": "a", "set": {"set": {"seed": 7}}},
+    {"op": "preset", "name": "b", "set": {"set": {"seed": 8}}})t");
+  for (const char* edit :
+       {R"t({"op": "preset", "name": "a", "rename": "b"})t", R"t({"op": "preset", "name": "c", "rename": "d"})t",
+        R"t({"op": "preset", "name": "c", "set": null})t", R"t({"op": "preset", "name": "", "set": {}})t",
+        R"t({"op": "preset", "level": "inner", "name": "c", "set": {"set": {"seed": 7}}})t"}) {
+    INFO(edit);
+    CHECK_THROWS_AS(after(text, edit), Error);
+  }
+}
