@@ -20,10 +20,14 @@ struct EditedGraph {
   std::vector<Problem> unset{};
 };
 
-/// Loads a document. If it has problems, loads what these nodes need of it. Reads only what the sandbox allows. Never
+/// Loads a document. If it has problems, loads the nodes without them, or, if a problem is in no node, what these nodes
+/// need of it. Reads only what the sandbox allows. Never
 /// throws because of the document.
 EditedGraph load_for_editing(const std::string& text, const std::filesystem::path& file,
                              const std::vector<NodeOfDocument>& wanted, const Sandbox& sandbox);
+
+/// The nodes to run instead of sinks: what those read, and what nobody reads. `names`: which are meant; empty: all.
+std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names);
 
 /// Runs `act`, which reads files that a graph names, with the sandbox's ReadGuard.
 void within(const Sandbox& sandbox, const std::function<void()>& act);

@@ -1,7 +1,6 @@
 #include "runner/editor/previews/runs.h"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,28 +32,6 @@ bool are_same(const std::vector<Problem>& a, const std::vector<Problem>& b) {
     return x.message == y.message && x.node == y.node && x.where == y.where && x.place.line == y.place.line &&
            x.place.column == y.place.column;
   });
-}
-
-/// The nodes to run instead of sinks: what those read, and what nobody reads.
-std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names) {
-  std::set<std::string> out;
-  const auto add_sources = [&](const GraphNode& sink) {
-    for (const auto& [port, wires] : sink.inputs)
-      for (const Wire& w : wires) out.insert(w.node);
-  };
-  for (const GraphNode& n : graph.nodes) {
-    const bool is_meant =
-        names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return stands_for(name, n.name); });
-    if (!is_meant) continue;
-    if (n.type->is_sink())
-      add_sources(n);
-    else if (!names.empty())
-      out.insert(n.name);
-  }
-  if (out.empty())  // a graph without sinks
-    for (const GraphNode& n : graph.nodes)
-      if (names.empty() && !n.type->is_sink()) out.insert(n.name);
-  return {out.begin(), out.end()};
 }
 
 /// Loading it takes a while, which the first picture need not wait for.
@@ -104,6 +81,27 @@ void Runs::changed(std::string text, std::filesystem::path file) {
     is_dirty_ = look_cancelled_ = true;
   }
   changed_.notify_all();
+}
+
+bool Runs::look_at_files() {
+  std::shared_ptr<const EditedGraph> graph;
+  std::string text;
+  std::filesystem::path file;
+  {
+    const std::lock_guard lock(mutex_);
+    // A graph that is being loaded reads them anyhow.
+    if (is_dirty_ || looks_) return false;
+    graph = graph_;
+    text = text_;
+    file = file_;
+  }
+  if (!files_.have_changed(graph, text, file, sandbox_)) return false;
+  {
+    const std::lock_guard lock(mutex_);
+    is_dirty_ = look_cancelled_ = true;
+  }
+  changed_.notify_all();
+  return true;
 }
 
 void Runs::show(const Json& request) {
