@@ -9,10 +9,11 @@
 #include "graphs/document/load.h"
 #include "graphs/document/subgraphs.h"
 #include "graphs/text/edit.h"
-#include "graphs/text/stock_graphs.h"
 #include "graphs/tools/descriptor_json.h"
 #include "graphs/values/convert.h"
+#include "graphs/values/scope.h"
 #include "runner/editor/state_problems.h"
+#include "runner/editor/types_json.h"
 
 namespace terrazzo {
 
@@ -26,14 +27,6 @@ struct TypeAsJson {
 
 ordered_json port_as_json(const Port& p) {
   return {{"name", p.name}, {"type", name_of(p.type)}, {"required", !p.optional}, {"list", p.list}, {"help", p.help}};
-}
-
-ordered_json parameter_as_json(const GraphParameter& p) {
-  ordered_json out = json_of_param(p.param);
-  if (p.formula) out["default"] = p.formula->text.text;
-  if (!p.group.empty()) out["group"] = p.group;
-  if (p.visible_if) out["visible_if"] = p.visible_if->text;
-  return out;
 }
 
 TypeAsJson type_as_json(const NodeType& type) {
@@ -122,6 +115,7 @@ class StateWriter {
       if (name.empty())
         for (const GraphParameter& known : inspected_.parameters)
           if (known.param.name == p.param.name && known.value) entry["value"] = json_of_value(json_of(*known.value));
+      if (name.empty() && p.visible_if && !is_shown(p.param.name)) entry["hidden"] = true;
       parameters.push_back(std::move(entry));
     }
     out["parameters"] = std::move(parameters);
@@ -143,7 +137,30 @@ class StateWriter {
     for (const auto& [id, f] : layout.frames)
       out["frames"].push_back(
           {{"id", id}, {"title", f.title}, {"x", f.x}, {"y", f.y}, {"width", f.width}, {"height", f.height}});
+    out["bends"] = ordered_json::object();
+    for (const auto& [wire, points] : layout.bends) out["bends"][wire] = points;
+    out["boxes"] = ordered_json::object();  // of the inputs and the outputs, where they were moved
+    for (const char* box : {"@inputs", "@outputs"})
+      if (const auto at = layout.nodes.find(box); at != layout.nodes.end())
+        out["boxes"][box] = {at->second.x, at->second.y};
     return out;
+  }
+
+  /// What "visible_if" comes to with the values of now.
+  bool is_shown(const std::string& parameter) const {
+    std::vector<GraphParameter> parameters = inspected_.parameters;
+    const auto at = std::ranges::find(parameters, parameter, [](const GraphParameter& p) { return p.param.name; });
+    if (at == parameters.end() || !at->visible_if) return true;
+    std::vector<Problem> ignored;
+    Diagnostics diagnostics(ignored, "", "");
+    const JsonValue text = *at->visible_if;
+    const std::optional<Expression> condition = parse_expression(text, diagnostics);
+    if (!condition) return true;
+    GraphScope scope(parameters, {}, "", ignored);
+    if (!scope.lacking(*condition).nothing()) return true;
+    const std::optional<ParamValue> value = scope.evaluate(*condition, text, "", diagnostics);
+    const bool* shown = value ? std::get_if<bool>(&*value) : nullptr;
+    return !shown || *shown;
   }
 
   ordered_json node(const std::string& level, std::vector<std::string> path, const JsonMember& m, const Subgraph& graph,
@@ -274,32 +291,6 @@ ordered_json state_json(const DocumentSnapshot& d, const FoundProblems& found) {
                  "note");
   out["problems"] = problems.take();
   return out;
-}
-
-const ordered_json& types_json() {
-  static const ordered_json all = [] {
-    ordered_json types = ordered_json::array(), graphs = ordered_json::array();
-    for (const NodeType& t : node_types()) types.push_back(json_of_type(t));
-    for (const StockGraph& stock : stock_graphs()) {
-      const GraphInterface graph = read_interface_text(stock.text, std::string(stock.name) + ".json");
-      ordered_json inputs = ordered_json::array(), outputs = ordered_json::array(), parameters = ordered_json::array();
-      for (const Port& p : graph.inputs) inputs.push_back(json_of_port(p));
-      for (const Port& p : graph.outputs) outputs.push_back(json_of_port(p));
-      for (const GraphParameter& p : graph.parameters) parameters.push_back(parameter_as_json(p));
-      graphs.push_back({{"name", "stock:" + std::string(stock.name)},
-                        {"category", graph_category},
-                        {"summary", graph.summary},
-                        {"help", graph.help},
-                        {"inputs", std::move(inputs)},
-                        {"outputs", std::move(outputs)},
-                        {"parameters", std::move(parameters)}});
-    }
-    ordered_json categories = categories_of(node_types());
-    categories.push_back(graph_category);
-    return ordered_json{
-        {"types", std::move(types)}, {"graphs", std::move(graphs)}, {"categories", std::move(categories)}};
-  }();
-  return all;
 }
 
 ordered_json preset_json(const DocumentSnapshot& d, const std::string& name) {

@@ -26,9 +26,6 @@ struct FoundProblems {
 /// Thread-safe.
 nlohmann::ordered_json state_json(const DocumentSnapshot& document, const FoundProblems& found = {});
 
-/// {"types": [...], "graphs": [...], "categories": [...]}: what nodes can be made of.
-const nlohmann::ordered_json& types_json();
-
 /// {"values": {...}} of a preset of the document: by target, "seed" or "node.parameter". Throws Error if there is none.
 nlohmann::ordered_json preset_json(const DocumentSnapshot& document, const std::string& name);
 

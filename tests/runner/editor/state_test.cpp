@@ -7,6 +7,7 @@
 
 #include "graphs/tools/descriptor_json.h"
 #include "nodes/common/registry.h"
+#include "runner/editor/types_json.h"
 #include "runner/scheduler/run_tool.h"
 #include "tests/run_node.h"
 
