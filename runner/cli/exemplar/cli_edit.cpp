@@ -38,6 +38,15 @@ struct EditFlags {
 /// How often the program looks whether it has been told to stop.
 constexpr std::chrono::milliseconds between_looks_at_signals{50};
 
+/// As `new` makes it, whose argument has another name.
+NewGraph graph_for(const std::string& folder, const fs::path& graph, const std::atomic<bool>& cancelled) try {
+  return new_graph({.folder = folder}, graph, "material", cancelled);
+} catch (const GraphError& e) {
+  std::vector<Problem> problems = e.problems();
+  for (Problem& p : problems) p.where.clear();
+  throw GraphError(e.file(), std::move(problems));
+}
+
 /// The graph file to edit: the one given, or that of a folder of maps, which is written if there is none. Nullopt if
 /// the folder makes no graph; `exit_code` then says why.
 std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<bool>& cancelled, int& exit_code) {
@@ -57,7 +66,7 @@ std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<
     return graph;
   }
   if (flags.read_only) throw UsageError(fmt::format("{} has no graph yet, and --read-only writes none", flags.graph));
-  const NewGraph made = new_graph({.folder = flags.graph}, graph, "material", cancelled);
+  const NewGraph made = graph_for(flags.graph, graph, cancelled);
   exit_code = made.exit_code;
   if (exit_code != exit_done) return std::nullopt;
   write_whole_file(graph, made.text);
