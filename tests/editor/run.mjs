@@ -2,5 +2,7 @@
 import { runAll } from './harness.mjs';
 import './building.mjs';
 import './living.mjs';
+import './canvas.mjs';
+import './forms.mjs';
 
 await runAll(process.argv[5]);

@@ -4,7 +4,7 @@ import { ask, askTypes, Refused, Unreachable, type DocumentState, type Edit, typ
 export interface Toast {id: number; text: string; kind: 'error' | 'info'}
 
 const noLevel: Level =
-  {summary: '', help: '', parameters: [], inputs: [], outputs: [], presets: [], nodes: [], frames: []};
+  {summary: '', help: '', parameters: [], inputs: [], outputs: [], presets: [], nodes: [], frames: [], bends: {}, boxes: {}};
 
 class Session {
   document = $state.raw<DocumentState | null>(null);
@@ -12,6 +12,7 @@ class Session {
   categories = $state.raw<string[]>([]);
   connected = $state(true);
   stopped = $state(false);  // the program said goodbye
+  shutOut = $state(false);  // it was started again, and does not know this browser
   toasts = $state.raw<Toast[]>([]);
   /// From the main graph to the level that is shown: the node that each was entered through.
   path = $state.raw<{level: string; via: string}[]>([]);
