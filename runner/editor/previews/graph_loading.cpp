@@ -192,6 +192,7 @@ void within(const Sandbox& sandbox, const std::function<void()>& act) {
 EditedGraph load_for_editing(const std::string& text, const fs::path& file, const std::vector<NodeOfDocument>& wanted,
                              const Sandbox& sandbox) {
   EditedGraph out;
+  out.begun = fs::file_time_type::clock::now();
   try {
     out.loaded = load_within(text, file, sandbox);
     out.unset = unset_parameters(*out.loaded);

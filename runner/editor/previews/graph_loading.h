@@ -18,6 +18,7 @@ struct EditedGraph {
   std::vector<Problem> problems;
   /// Parameters that have no value yet, as warnings: nodes that need them are left out of the graph.
   std::vector<Problem> unset{};
+  std::filesystem::file_time_type begun{};  ///< when loading it began
 };
 
 /// Loads a document. If it has problems, loads the nodes without them, or, if a problem is in no node, what these nodes

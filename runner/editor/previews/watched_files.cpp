@@ -1,5 +1,8 @@
 #include "runner/editor/previews/watched_files.h"
 
+#include <algorithm>
+#include <chrono>
+
 #include "graphs/text/json.h"
 
 namespace terrazzo {
@@ -53,7 +56,12 @@ bool WatchedFiles::have_changed(const std::shared_ptr<const EditedGraph>& graph,
     }
   });
   const bool is_same_graph = graph == graph_ && text == text_;
-  const bool out = is_same_graph && now != facts_;
+  // A file that was written while the graph was loaded may have been read before that. File systems' clocks are coarse.
+  const auto present = fs::file_time_type::clock::now();
+  const bool is_newer = std::ranges::any_of(now, [&](const auto& file) {
+    return file.second.first >= graph->begun - std::chrono::milliseconds(10) && file.second.first <= present;
+  });
+  const bool out = is_same_graph ? now != facts_ : is_newer;
   graph_ = graph;
   text_ = text;
   facts_ = std::move(now);

@@ -13,7 +13,8 @@ namespace terrazzo {
 /// Notices when files change that an edited graph reads, or would read if they were there. Not thread-safe.
 class WatchedFiles {
  public:
-  /// Whether one has changed, come or gone since the last call with this graph and text. Looks at names, times and
+  /// Whether one has changed, come or gone since the last call with this graph and text, or
+  /// since this graph was loaded. Looks at names, times and
   /// sizes only, and at nothing that the sandbox does not allow.
   bool have_changed(const std::shared_ptr<const EditedGraph>& graph, const std::string& text,
                     const std::filesystem::path& document, const Sandbox& sandbox);

@@ -29,6 +29,14 @@ TEST_CASE("files that a graph reads are watched, also those that are missing") {
   CHECK_FALSE(files.have_changed(graph, text, document, sandbox));
   write_text(map, "P5 4 4 255\n" + std::string(16, 'a'));
   CHECK(files.have_changed(graph, text, document, sandbox));
+  // Written before the graph was loaded, or while it was.
+  fs::last_write_time(map, later(-1));
+  graph = load();
+  CHECK_FALSE(files.have_changed(graph, text, document, sandbox));
+  graph = load();
+  fs::last_write_time(map, later(0));
+  CHECK(files.have_changed(graph, text, document, sandbox));
+  fs::last_write_time(map, later(-1));
   graph = load();
   CHECK_FALSE(files.have_changed(graph, text, document, sandbox));
   CHECK_FALSE(files.have_changed(graph, text, document, sandbox));
