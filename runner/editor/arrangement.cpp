@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/node/node.h"
 #include "graphs/edit/edit_context.h"
@@ -84,17 +85,21 @@ Arrangement::Positions Arrangement::automatic() const {
 
 Arrangement::Positions Arrangement::completed(Positions known) const {
   if (std::ranges::all_of(names_, [&](const std::string& n) { return known.contains(n); })) return known;
-  const Positions all = automatic();
-  if (known.empty()) return all;
+  if (known.empty()) return automatic();
+  std::optional<Positions> all;  // takes a while
   for (const size_t i : order_) {
     if (known.contains(names_[i])) continue;
-    NodePlace place = all.at(names_[i]);
+    NodePlace place;
     bool has_source = false;
     for (const size_t s : sources_[i]) {
       const auto at = known.find(names_[s]);
       if (at == known.end() || (has_source && at->second.x + card_width + room_beside <= place.x)) continue;
       place = {at->second.x + card_width + room_beside, at->second.y, false};
       has_source = true;
+    }
+    if (!has_source) {
+      if (!all) all = automatic();
+      place = all->at(names_[i]);
     }
     known[names_[i]] = free_place(place, i, known);
   }

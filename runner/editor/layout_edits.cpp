@@ -181,6 +181,10 @@ void LayoutEdits::keep_places(const JsonValue& before, const JsonValue& after, c
   for (const nlohmann::ordered_json& e : edits)
     if (changes_structure(e)) touched.insert(member_text(e, "level"));
   for (const std::string& level : touched) {
+    const JsonValue* nodes = nodes_of(before, level);
+    const Positions& known = levels_[level].nodes;
+    if (!nodes || std::ranges::all_of(nodes->members, [&](const JsonMember& m) { return known.contains(m.name); }))
+      continue;
     std::map<std::string, LevelLayout> old = levels_, now = levels_;
     complete(before, level, old);
     complete(after, level, now);

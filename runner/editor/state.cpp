@@ -21,30 +21,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-struct TypeAsJson {
-  ordered_json inputs, outputs, params;
-};
-
 ordered_json port_as_json(const Port& p) {
   return {{"name", p.name}, {"type", name_of(p.type)}, {"required", !p.optional}, {"list", p.list}, {"help", p.help}};
-}
-
-TypeAsJson type_as_json(const NodeType& type) {
-  TypeAsJson out{ordered_json::array(), ordered_json::array(), ordered_json::array()};
-  for (const Port& p : type.inputs) out.inputs.push_back(port_as_json(p));
-  for (const Port& p : type.outputs) out.outputs.push_back(port_as_json(p));
-  for (const Param& p : type.params) out.params.push_back(json_of_param(p));
-  return out;
-}
-
-/// Of the types that the program knows, made once.
-const TypeAsJson& known_type_as_json(const NodeType& type) {
-  static const std::map<const NodeType*, TypeAsJson> all = [] {
-    std::map<const NodeType*, TypeAsJson> out;
-    for (const NodeType& t : node_types()) out.emplace(&t, type_as_json(t));
-    return out;
-  }();
-  return all.at(&type);
 }
 
 bool is_changing_text(const JsonValue& v) {
@@ -146,6 +124,21 @@ class StateWriter {
     return out;
   }
 
+  /// Ports and parameters. Those of the program's types are in types_json: repeated for each node they would be most of
+  /// the state.
+  static void write_interface(ordered_json& out, const Subgraph* inner) {
+    ordered_json inputs = ordered_json::array(), outputs = ordered_json::array(), params = ordered_json::array();
+    if (inner) {
+      const NodeType type = type_of_use(*inner, {});
+      for (const Port& p : type.inputs) inputs.push_back(port_as_json(p));
+      for (const Port& p : type.outputs) outputs.push_back(port_as_json(p));
+      for (const GraphParameter& p : inner->parameters) params.push_back(parameter_as_json(p));
+    }
+    out["inputs"] = std::move(inputs);
+    out["outputs"] = std::move(outputs);
+    out["params"] = std::move(params);
+  }
+
   /// What "visible_if" comes to with the values of now.
   bool is_shown(const std::string& parameter) const {
     std::vector<GraphParameter> parameters = inspected_.parameters;
@@ -179,17 +172,8 @@ class StateWriter {
     if (const JsonValue* loop = m.value.find("foreach")) out["foreach"] = json_of_value(*loop);
     const JsonValue* graphs = document_.find("graphs");
     if (inner && graphs && graphs->find(type->text)) out["level"] = type->text;
-    TypeAsJson described{ordered_json::array(), ordered_json::array(), ordered_json::array()};
-    if (known) described = known_type_as_json(*known);
-    if (inner) {
-      described = type_as_json(type_of_use(*inner, {}));
-      described.params = ordered_json::array();
-      for (const GraphParameter& p : inner->parameters) described.params.push_back(parameter_as_json(p));
-    }
     write_values(out, level, path, m, graph);
-    out["inputs"] = std::move(described.inputs);
-    out["outputs"] = std::move(described.outputs);
-    out["params"] = std::move(described.params);
+    if (!known) write_interface(out, inner);
     if (const auto at = layout.nodes.find(m.name); at != layout.nodes.end()) {
       out["x"] = at->second.x;
       out["y"] = at->second.y;

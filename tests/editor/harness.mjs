@@ -105,7 +105,7 @@ export class Editor {
       [...document.querySelectorAll('.svelte-flow__node')].map((n) => n.dataset.id + n.style.transform + n.className).join());
     for (let before = '', now = await look(), same = 0; same < 2; before = now, now = await look()) {
       same = before === now ? same + 1 : 0;
-      await this.page.waitForTimeout(110);
+      await this.page.waitForTimeout(70);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graphs/text/stock_graphs.h"
+#include "nodes/common/registry.h"
 #include "runner/editor/document.h"
 #include "runner/editor/state.h"
 #include "tests/run_node.h"
@@ -80,7 +81,9 @@ TEST_CASE("cards do not overlap") {
     for (size_t i = 0; i < nodes.size(); i++)
       for (size_t j = i + 1; j < nodes.size(); j++) {
         const auto height = [](const ordered_json& n) {
-          return 49.0 + 17.0 * double(std::max(n["inputs"].size(), n["outputs"].size()));
+          const NodeType* type = find_node_type(n["type"].get<std::string>());
+          return 49.0 + 17.0 * double(type ? std::max(type->inputs.size(), type->outputs.size())
+                                           : std::max(n["inputs"].size(), n["outputs"].size()));
         };
         const auto &a = nodes[i], &b = nodes[j];
         const double ay = a["y"], by = b["y"];
