@@ -53,6 +53,25 @@ bool is_op(const EditRequest& edit, std::initializer_list<const char*> ops) {
   return std::ranges::any_of(ops, [&](const char* o) { return op == o; });
 }
 
+/// The text that an edit "text" comes to: merged with what has changed since `was`, the text that it was made from.
+std::string edited_text(const EditRequest& edits, const EditRequest& request, const std::string& now,
+                        int64_t revision) {
+  if (edits.size() > 1) throw EditRefused("the whole text is an edit by itself");
+  if (!edits[0].contains("text") || !edits[0]["text"].is_string()) throw EditRefused("expected the text");
+  std::string text = text_in(edits[0], "text");
+  if (edits[0].contains("was")) {
+    const std::string was = text_in(edits[0], "was");
+    if (was == now || text == now) return text;
+    MergedText merge = merged(was, text, now);
+    if (merge.conflict.empty()) return std::move(merge.text);
+    throw EditRefused("the document was changed elsewhere meanwhile: " + merge.conflict);
+  }
+  const auto base = request.find("base");
+  if (base != request.end() && base->is_number_integer() && base->get<int64_t>() != revision)
+    throw EditRefused("the document has changed since this text was read; look at it again");
+  return text;
+}
+
 /// Edits with the same key, not empty, within a second of each other become one step.
 std::string merging_key(const EditRequest& request, const EditRequest& edits) {
   if (text_in(request, "label").empty() || edits.size() != 1 || !is_op(edits[0], {"set", "value"})) return "";
@@ -241,12 +260,7 @@ EditAnswer EditedDocument::edit(const EditRequest& request) {
   std::string label = text_in(request, "label");
   DocumentTexts after = d.now;
   if (is_op(edits[0], {"text"})) {
-    const auto base = request.find("base");
-    if (base != request.end() && base->is_number_integer() && base->get<int64_t>() != d.revision)
-      throw EditRefused("the document has changed since this text was read; look at it again");
-    if (edits.size() > 1) throw EditRefused("the whole text is an edit by itself");
-    if (!edits[0].contains("text") || !edits[0]["text"].is_string()) throw EditRefused("expected the text");
-    after.graph = text_in(edits[0], "text");
+    after.graph = edited_text(edits, request, d.now.graph, d.revision);
     if (label.empty()) label = "edit the text";
   } else {
     try {
@@ -254,7 +268,7 @@ EditAnswer EditedDocument::edit(const EditRequest& request) {
       EditRequest of_graph = EditRequest::array();
       std::vector<const EditRequest*> of_layout;
       for (const EditRequest& e : edits)
-        if (is_op(e, {"move", "pin", "frame"}))
+        if (is_op(e, {"move", "pin", "frame", "bend"}))
           of_layout.push_back(&e);
         else
           of_graph.push_back(e);

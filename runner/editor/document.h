@@ -66,8 +66,9 @@ class EditedDocument {
   int64_t revision() const;
 
   /// Applies the request {"base": revision, "label"?, "edits": [...]} as one step of undo: edits of graphs/edit, and
-  /// those of the layout (move, pin, frame) and of the whole text (text). Edits name nodes, so they apply to a newer
-  /// revision than `base`, too; only "text" needs the same. With a label, sets of the same key within a second become
+  /// those of the layout (move, pin, frame, bend) and of the whole text (text). Edits name nodes, so they apply to a
+  /// newer revision than `base`, too; only "text" needs the same, or `was`, the text that it was made from: then it is
+  /// merged with what has changed since. With a label, sets of the same key within a second become
   /// one step. Throws EditRefused.
   EditAnswer edit(const nlohmann::ordered_json& request);
   /// Does nothing if there is no step. Throws EditRefused if the document is read-only.

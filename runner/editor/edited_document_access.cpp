@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/editor/state.h"
+#include "runner/editor/types_json.h"
 
 namespace terrazzo {
 

@@ -9,16 +9,14 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "graphs/edit/edit_context.h"
-#include "graphs/tools/layout.h"
+#include "graphs/document/nodes.h"
+#include "runner/editor/arrangement.h"
 
 namespace terrazzo {
 
 namespace {
 
 using Positions = std::map<std::string, NodePlace>;
-
-constexpr double node_width = 190, column_gap = 70, head_height = 48, row_height = 22;
 
 const JsonValue* level_of(const JsonValue& document, const std::string& level) {
   if (level.empty()) return &document;
@@ -36,108 +34,12 @@ std::optional<JsonValue> read_text(const std::string& text) {
   return parse_json(text).value;
 }
 
-/// The nodes of a level with their sources before them, as far as the wires form no cycle.
-class Arrangement {
- public:
-  explicit Arrangement(const JsonValue& nodes) {
-    std::map<std::string, size_t> positions;
-    for (const JsonMember& m : nodes.members) positions.emplace(m.name, names_.size()), names_.push_back(m.name);
-    sources_.resize(names_.size());
-    heights_.resize(names_.size(), head_height);
-    for (const JsonMember& m : nodes.members) {
-      const size_t i = positions.at(m.name);
-      for (const std::string& named : edits::named_nodes(m.value))
-        if (const auto at = positions.find(named); at != positions.end() && at->second != i)
-          sources_[i].push_back(at->second);
-      heights_[i] = head_height + row_height * double(std::max<size_t>(1, sources_[i].size()));
-    }
-    sort();
-  }
-
-  /// All of them, from left to right.
-  Positions automatic() const {
-    std::vector<size_t> rank(names_.size());
-    for (size_t k = 0; k < order_.size(); k++) rank[order_[k]] = k;
-    std::vector<BoxSize> boxes;
-    std::vector<LayoutWire> wires;
-    for (const size_t i : order_) boxes.push_back({node_width, heights_[i]});
-    for (const size_t i : order_)
-      for (const size_t source : sources_[i])
-        if (rank[source] < rank[i]) wires.push_back({rank[source], head_height, rank[i], head_height});
-    const Layout layout = lay_out(boxes, wires);
-    Positions out;
-    for (size_t k = 0; k < order_.size(); k++)
-      out[names_[order_[k]]] = {std::round(layout.corners[k].x), std::round(layout.corners[k].y), false};
-    return out;
-  }
-
-  /// Those of `known`, and the others beside what they read.
-  Positions completed(Positions known) const {
-    const bool is_complete = std::ranges::all_of(names_, [&](const std::string& n) { return known.contains(n); });
-    if (is_complete) return known;
-    Positions automatic_ = automatic();
-    if (known.empty()) return automatic_;
-    for (const size_t i : order_) {
-      if (known.contains(names_[i])) continue;
-      NodePlace place = automatic_.at(names_[i]);
-      bool has_source = false;
-      for (const size_t s : sources_[i]) {
-        const auto at = known.find(names_[s]);
-        if (at == known.end() || (has_source && at->second.x + node_width + column_gap <= place.x)) continue;
-        place = {at->second.x + node_width + column_gap, at->second.y, false};
-        has_source = true;
-      }
-      known[names_[i]] = free_place(place, known);
-    }
-    return known;
-  }
-
- private:
-  static NodePlace free_place(NodePlace place, const Positions& known) {
-    const auto covers = [&](const auto& other) {
-      return std::abs(other.second.x - place.x) < node_width && std::abs(other.second.y - place.y) < 90;
-    };
-    for (int tries = 0; tries < 1000; tries++) {
-      const auto at = std::ranges::find_if(known, covers);
-      if (at == known.end()) break;
-      place.y = at->second.y + 90;
-    }
-    return place;
-  }
-
-  void sort() {
-    enum class State : uint8_t { unseen, open, done };
-    std::vector<State> state(names_.size(), State::unseen);
-    for (size_t start = 0; start < names_.size(); start++) {
-      if (state[start] != State::unseen) continue;
-      std::vector<std::pair<size_t, size_t>> path = {{start, 0}};
-      state[start] = State::open;
-      while (!path.empty()) {
-        auto& [node, next] = path.back();
-        if (next == sources_[node].size()) {
-          state[node] = State::done;
-          order_.push_back(node);
-          path.pop_back();
-        } else if (const size_t source = sources_[node][next++]; state[source] == State::unseen) {
-          state[source] = State::open;
-          path.emplace_back(source, 0);
-        }
-      }
-    }
-  }
-
-  std::vector<std::string> names_;
-  std::vector<std::vector<size_t>> sources_;
-  std::vector<double> heights_;
-  std::vector<size_t> order_;
-};
-
 void complete(const JsonValue& document, const std::string& level, std::map<std::string, LevelLayout>& levels) {
   const JsonValue* nodes = nodes_of(document, level);
   if (!nodes) return;
   Positions here, elsewhere;  // positions of nodes that do not exist at present stay in the file
   for (const auto& [name, place] : levels[level].nodes) (nodes->find(name) ? here : elsewhere).emplace(name, place);
-  here = Arrangement(*nodes).completed(std::move(here));
+  here = Arrangement(document, *nodes).completed(std::move(here));
   here.merge(elsewhere);
   levels[level].nodes = std::move(here);
 }
@@ -163,6 +65,46 @@ double coordinate(const nlohmann::ordered_json& value) {
 
 bool has_position(const nlohmann::ordered_json& edit) {
   return edit.contains("x") && edit.contains("y") && edit["x"].is_number() && edit["y"].is_number();
+}
+
+/// The ends of a wire that has bends: "node.output > node.input". Names of nodes have no points.
+struct WireEnds {
+  std::string from, output, to, input;
+
+  static std::optional<WireEnds> of(const std::string& key) {
+    const size_t between = key.find(" > ");
+    if (between == std::string::npos) return std::nullopt;
+    const std::string left = key.substr(0, between), right = key.substr(between + 3);
+    const size_t a = left.find('.'), b = right.find('.');
+    if (b == std::string::npos) return std::nullopt;
+    return WireEnds{left.substr(0, a), a == std::string::npos ? "" : left.substr(a), right.substr(0, b),
+                    right.substr(b + 1)};
+  }
+  std::string key() const { return from + output + " > " + to + "." + input; }
+};
+
+constexpr const char *inputs_box = "@inputs", *outputs_box = "@outputs";
+
+bool comes_from(const JsonValue& value, const std::string& node) {
+  if (is_wire(value)) return wire_parts(value.text).first == node;
+  return std::ranges::any_of(value.items, [&](const JsonValue& v) { return comes_from(v, node); });
+}
+
+/// Whether a level has such a wire.
+bool has_wire(const JsonValue& document, const std::string& level, const WireEnds& wire) {
+  const JsonValue* graph = level_of(document, level);
+  const JsonValue* readers = graph ? graph->find(wire.to == outputs_box ? "outputs" : "nodes") : nullptr;
+  const JsonValue* reader = readers && wire.to != outputs_box ? readers->find(wire.to) : readers;
+  const JsonValue* value = reader ? reader->find(wire.input) : nullptr;
+  if (!value) return false;
+  if (const JsonValue* from = value->is_object() ? value->find("from") : nullptr) value = from;
+  return comes_from(*value, wire.from);
+}
+
+/// Whether an edit may change the places that are chosen automatically.
+bool changes_structure(const nlohmann::ordered_json& edit) {
+  const std::string op = member_text(edit, "op");
+  return op != "set" && op != "unset" && op != "value" && op != "parameter";
 }
 
 NodePlace middle_of(const Positions& places) {
@@ -196,13 +138,21 @@ LevelLayout& LayoutEdits::frozen(const std::string& level) {
 void LayoutEdits::follow(const EditedText& changed, const nlohmann::ordered_json& edits) {
   if (changed.text == text_) return;
   const std::optional<JsonValue> before = read_text(text_), after = read_text(changed.text);
+  if (before && after && before_.fault.empty()) keep_places(*before, *after, edits);
   text_ = changed.text;
   if (!before || !after) return;
+  std::map<size_t, NodePlace> ungrouped;  // by position of the edit: where the node was
+  for (size_t i = 0; i < edits.size(); i++)
+    if (member_text(edits[i], "op") == "ungroup") {
+      const Positions& nodes = levels_[member_text(edits[i], "level")].nodes;
+      if (const auto at = nodes.find(member_text(edits[i], "node")); at != nodes.end()) ungrouped[i] = at->second;
+    }
   for (const EditedText::Renamed& r : changed.renamed)
     if (auto node = levels_[r.level].nodes.extract(r.from)) {
       node.key() = r.to;
       levels_[r.level].nodes.insert(std::move(node));
     }
+  follow_wires(*after, changed);
   std::map<std::string, Positions> gone;  // by level
   for (auto& entry : levels_) {
     const std::string& level = entry.first;
@@ -222,11 +172,51 @@ void LayoutEdits::follow(const EditedText& changed, const nlohmann::ordered_json
       levels_[changed.added[i]].nodes = gone[level];
     }
   }
-  place_added(changed, edits);
+  place_added(changed, edits, ungrouped);
+}
+
+/// Nodes that were placed automatically stay where they are seen: an edit must not move others.
+void LayoutEdits::keep_places(const JsonValue& before, const JsonValue& after, const nlohmann::ordered_json& edits) {
+  std::set<std::string> touched;
+  for (const nlohmann::ordered_json& e : edits)
+    if (changes_structure(e)) touched.insert(member_text(e, "level"));
+  for (const std::string& level : touched) {
+    const JsonValue* nodes = nodes_of(before, level);
+    const Positions& known = levels_[level].nodes;
+    if (!nodes || std::ranges::all_of(nodes->members, [&](const JsonMember& m) { return known.contains(m.name); }))
+      continue;
+    std::map<std::string, LevelLayout> old = levels_, now = levels_;
+    complete(before, level, old);
+    complete(after, level, now);
+    const bool is_moved = std::ranges::any_of(old[level].nodes, [&](const auto& node) {
+      const auto at = now[level].nodes.find(node.first);
+      return at == now[level].nodes.end() || !(at->second == node.second);
+    });
+    if (is_moved) levels_[level].nodes = std::move(old[level].nodes);
+  }
+}
+
+/// Bends of wires follow new names, and go with their wires.
+void LayoutEdits::follow_wires(const JsonValue& after, const EditedText& changed) {
+  for (auto& entry : levels_) {
+    const std::string& level = entry.first;
+    std::map<std::string, std::vector<std::array<double, 2>>> kept;
+    for (auto& [key, points] : entry.second.bends) {
+      std::optional<WireEnds> wire = WireEnds::of(key);
+      if (!wire) continue;
+      for (const EditedText::Renamed& r : changed.renamed)
+        if (r.level == level)
+          for (std::string* name : {&wire->from, &wire->to})
+            if (*name == r.from) *name = r.to;
+      if (has_wire(after, level, *wire)) kept.emplace(wire->key(), std::move(points));
+    }
+    entry.second.bends = std::move(kept);
+  }
 }
 
 /// Several nodes that one change has added keep together.
-void LayoutEdits::place_added(const EditedText& changed, const nlohmann::ordered_json& edits) {
+void LayoutEdits::place_added(const EditedText& changed, const nlohmann::ordered_json& edits,
+                              const std::map<size_t, NodePlace>& ungrouped) {
   const std::optional<JsonValue> document = read_text(text_);
   for (size_t i = 0; i < changed.added.size() && i < changed.added_by.size();) {
     const size_t by = changed.added_by[i];
@@ -235,13 +225,16 @@ void LayoutEdits::place_added(const EditedText& changed, const nlohmann::ordered
     const nlohmann::ordered_json& edit = edits.at(by);
     const std::string level = member_text(edit, "level");
     const JsonValue* nodes = document ? nodes_of(*document, level) : nullptr;
-    if (has_position(edit) && nodes) {
+    const auto was = ungrouped.find(by);
+    if (nodes && (has_position(edit) || was != ungrouped.end())) {
+      const NodePlace corner =
+          was != ungrouped.end() ? was->second : NodePlace{coordinate(edit["x"]), coordinate(edit["y"])};
       JsonValue own = JsonValue::empty_object();
       for (const JsonMember& m : nodes->members)
         if (names.contains(m.name)) own.members.push_back(m);
       LevelLayout& layout = frozen(level);
-      for (const auto& [name, place] : Arrangement(own).automatic())
-        layout.nodes[name] = {place.x + coordinate(edit["x"]), place.y + coordinate(edit["y"]), false};
+      for (const auto& [name, place] : Arrangement(*document, own).automatic())
+        layout.nodes[name] = {place.x + corner.x, place.y + corner.y, false};
     } else if (const auto known = levels_.find(level); known != levels_.end() && !known->second.nodes.empty()) {
       frozen(level);
     }
@@ -260,7 +253,7 @@ void LayoutEdits::apply(const nlohmann::ordered_json& edit) {
     const nlohmann::ordered_json& positions = edit.at("positions");
     for (const auto& [name, at] : positions.items()) {
       if (!at.is_array() || at.size() != 2) throw Error("expected a position as [x, y] in pixels");
-      NodePlace& place = node(name);
+      NodePlace& place = name == inputs_box || name == outputs_box ? level.nodes[name] : node(name);
       place.x = coordinate(at[0]);
       place.y = coordinate(at[1]);
     }
@@ -270,6 +263,20 @@ void LayoutEdits::apply(const nlohmann::ordered_json& edit) {
     const bool on = edit.value("on", true);
     for (const nlohmann::ordered_json& name : edit.at("nodes")) node(name.get<std::string>()).pinned = on;
     label_ = on ? "pin" : "unpin";
+  } else if (op == "bend") {
+    const nlohmann::ordered_json& points = edit.at("points");
+    const std::string wire = member_text(edit, "wire");
+    const std::optional<WireEnds> ends = WireEnds::of(wire);
+    const std::optional<JsonValue> document = read_text(text_);
+    if (!ends || !document || !has_wire(*document, member_text(edit, "level"), *ends))
+      throw Error(fmt::format("the graph has no wire \"{}\"", wire));
+    std::vector<std::array<double, 2>> bends;
+    for (const nlohmann::ordered_json& p : points) bends.push_back({coordinate(p.at(0)), coordinate(p.at(1))});
+    if (bends.empty())
+      level.bends.erase(wire);
+    else
+      level.bends[wire] = std::move(bends);
+    label_ = "bend a wire";
   } else {
     const nlohmann::ordered_json& set = edit.at("set");
     std::string id = member_text(edit, "id");

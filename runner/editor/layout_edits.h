@@ -14,8 +14,8 @@ namespace terrazzo {
 std::map<std::string, LevelLayout> complete_layout(std::string_view text,
                                                    const std::map<std::string, LevelLayout>& levels);
 
-/// Changes the positions of nodes along with a document. The first move in a level writes down all its positions, so
-/// that the others stay where they are seen.
+/// Changes the positions of nodes along with a document. The first move in a level writes down all its positions, and
+/// so does an edit after which others would be placed elsewhere: nodes stay where they are seen.
 class LayoutEdits {
  public:
   LayoutEdits(const std::string& text, const LayoutFile& layout);
@@ -23,7 +23,7 @@ class LayoutEdits {
   /// After edits of the graph: nodes that were added, renamed, removed, grouped and ungrouped. `edits` are those that
   /// led to `changed`.
   void follow(const EditedText& changed, const nlohmann::ordered_json& edits);
-  /// Applies move, pin or frame. Throws Error.
+  /// Applies move, pin, bend or frame. Throws Error.
   void apply(const nlohmann::ordered_json& edit);
 
   LayoutFile result() const;
@@ -31,7 +31,10 @@ class LayoutEdits {
 
  private:
   LevelLayout& frozen(const std::string& level);
-  void place_added(const EditedText& changed, const nlohmann::ordered_json& edits);
+  void keep_places(const JsonValue& before, const JsonValue& after, const nlohmann::ordered_json& edits);
+  void follow_wires(const JsonValue& after, const EditedText& changed);
+  void place_added(const EditedText& changed, const nlohmann::ordered_json& edits,
+                   const std::map<size_t, NodePlace>& ungrouped);
 
   std::string text_;
   const LayoutFile& before_;

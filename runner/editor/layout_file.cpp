@@ -52,6 +52,13 @@ LevelLayout read_level(const JsonValue& json) {
       if (read_pair(m.value.find("at"), frame.x, frame.y) && read_pair(m.value.find("size"), frame.width, frame.height))
         out.frames.emplace(m.name, frame);
     }
+  if (const JsonValue* wires = json.find("wires"))
+    for (const JsonMember& m : wires->members) {
+      std::vector<std::array<double, 2>> points;
+      for (const JsonValue& item : m.value.items)
+        if (std::array<double, 2> point{}; read_pair(&item, point[0], point[1])) points.push_back(point);
+      if (!points.empty()) out.bends.emplace(m.name, std::move(points));
+    }
   return out;
 }
 
@@ -92,8 +99,15 @@ void write_frame(JsonValue& section, const std::string& name, const LayoutFrame&
   out.set("size", pair_of(frame.width, frame.height));
 }
 
+void write_bends(JsonValue& section, const std::string& wire, const std::vector<std::array<double, 2>>& points) {
+  JsonValue out;
+  out.kind = JsonValue::Kind::list;
+  for (const auto& [x, y] : points) out.items.push_back(pair_of(x, y));
+  section.set(wire, std::move(out));
+}
+
 bool is_empty(const LevelLayout& level) {
-  return level.nodes.empty() && level.frames.empty();
+  return level.nodes.empty() && level.frames.empty() && level.bends.empty();
 }
 
 }  // namespace
@@ -135,6 +149,8 @@ LayoutFile with_levels(const LayoutFile& before, const std::map<std::string, Lev
       write_members(member(out, "nodes"), known(name).nodes, level.nodes, write_node);
     if (!level.frames.empty() || out.find("frames"))
       write_members(member(out, "frames"), known(name).frames, level.frames, write_frame);
+    if (!level.bends.empty() || out.find("wires"))
+      write_members(member(out, "wires"), known(name).bends, level.bends, write_bends);
   }
   std::erase_if(all.members,
                 [&](const JsonMember& m) { return before.levels.contains(m.name) && !levels.contains(m.name); });

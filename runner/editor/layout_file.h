@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -9,7 +10,8 @@
 /// The positions of nodes on an editor's canvas, in GRAPH.layout.json beside GRAPH.json:
 ///
 ///     {"levels": {"": {"nodes": {"exemplar": [40, 80], "weighted": {"at": [320, 80], "pinned": true}},
-///                      "frames": {"f1": {"title": "analysis", "at": [20, 40], "size": [640, 300]}}}}}
+///                      "frames": {"f1": {"title": "analysis", "at": [20, 40], "size": [640, 300]}},
+///                      "wires": {"exemplar.material > weighted.material": [[260, 20], [280, 140]]}}}}
 ///
 /// Anything else in the file is kept.
 namespace terrazzo {
@@ -29,6 +31,8 @@ struct LayoutFrame {
 struct LevelLayout {
   std::map<std::string, NodePlace> nodes;
   std::map<std::string, LayoutFrame> frames;
+  /// The points that a wire passes on its way from source to target, by "node.output > node.input".
+  std::map<std::string, std::vector<std::array<double, 2>>> bends;
   bool operator==(const LevelLayout&) const = default;
 };
 

@@ -159,7 +159,8 @@ void EditorServer::watch_disk() {
   while (!stopping_.wait_for(lock, between_looks_at_disk, [&] { return stops_; })) {
     lock.unlock();
     try {
-      if (document_.look_at_disk()) tell_state();
+      const bool has_changed = document_.look_at_disk();
+      if (runs_->look_at_files() || has_changed) tell_state();
     } catch (const std::exception&) {
       // The document says what is wrong with its file in its state.
     }

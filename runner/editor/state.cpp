@@ -9,10 +9,11 @@
 #include "graphs/document/load.h"
 #include "graphs/document/subgraphs.h"
 #include "graphs/text/edit.h"
-#include "graphs/text/stock_graphs.h"
 #include "graphs/tools/descriptor_json.h"
 #include "graphs/values/convert.h"
+#include "graphs/values/scope.h"
 #include "runner/editor/state_problems.h"
+#include "runner/editor/types_json.h"
 
 namespace terrazzo {
 
@@ -20,20 +21,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-struct TypeAsJson {
-  ordered_json inputs, outputs, params;
-};
-
 ordered_json port_as_json(const Port& p) {
   return {{"name", p.name}, {"type", name_of(p.type)}, {"required", !p.optional}, {"list", p.list}, {"help", p.help}};
-}
-
-ordered_json parameter_as_json(const GraphParameter& p) {
-  ordered_json out = json_of_param(p.param);
-  if (p.formula) out["default"] = p.formula->text.text;
-  if (!p.group.empty()) out["group"] = p.group;
-  if (p.visible_if) out["visible_if"] = p.visible_if->text;
-  return out;
 }
 
 /// By target, "seed" or "node.parameter".
@@ -42,24 +31,6 @@ ordered_json values_of(const Preset& preset) {
   for (const Override& o : preset.set)
     out[o.node.empty() ? o.name : o.node + "." + o.name] = o.json ? json_of_value(*o.json) : ordered_json(o.value);
   return out;
-}
-
-TypeAsJson type_as_json(const NodeType& type) {
-  TypeAsJson out{ordered_json::array(), ordered_json::array(), ordered_json::array()};
-  for (const Port& p : type.inputs) out.inputs.push_back(port_as_json(p));
-  for (const Port& p : type.outputs) out.outputs.push_back(port_as_json(p));
-  for (const Param& p : type.params) out.params.push_back(json_of_param(p));
-  return out;
-}
-
-/// Of the types that the program knows, made once.
-const TypeAsJson& known_type_as_json(const NodeType& type) {
-  static const std::map<const NodeType*, TypeAsJson> all = [] {
-    std::map<const NodeType*, TypeAsJson> out;
-    for (const NodeType& t : node_types()) out.emplace(&t, type_as_json(t));
-    return out;
-  }();
-  return all.at(&type);
 }
 
 bool is_changing_text(const JsonValue& v) {
@@ -131,6 +102,7 @@ class StateWriter {
       if (name.empty())
         for (const GraphParameter& known : inspected_.parameters)
           if (known.param.name == p.param.name && known.value) entry["value"] = json_of_value(json_of(*known.value));
+      if (name.empty() && p.visible_if && !is_shown(p.param.name)) entry["hidden"] = true;
       parameters.push_back(std::move(entry));
     }
     out["parameters"] = std::move(parameters);
@@ -156,7 +128,45 @@ class StateWriter {
     for (const auto& [id, f] : layout.frames)
       out["frames"].push_back(
           {{"id", id}, {"title", f.title}, {"x", f.x}, {"y", f.y}, {"width", f.width}, {"height", f.height}});
+    out["bends"] = ordered_json::object();
+    for (const auto& [wire, points] : layout.bends) out["bends"][wire] = points;
+    out["boxes"] = ordered_json::object();  // of the inputs and the outputs, where they were moved
+    for (const char* box : {"@inputs", "@outputs"})
+      if (const auto at = layout.nodes.find(box); at != layout.nodes.end())
+        out["boxes"][box] = {at->second.x, at->second.y};
     return out;
+  }
+
+  /// Ports and parameters. Those of the program's types are in types_json: repeated for each node they would be most of
+  /// the state.
+  static void write_interface(ordered_json& out, const Subgraph* inner) {
+    ordered_json inputs = ordered_json::array(), outputs = ordered_json::array(), params = ordered_json::array();
+    if (inner) {
+      const NodeType type = type_of_use(*inner, {});
+      for (const Port& p : type.inputs) inputs.push_back(port_as_json(p));
+      for (const Port& p : type.outputs) outputs.push_back(port_as_json(p));
+      for (const GraphParameter& p : inner->parameters) params.push_back(parameter_as_json(p));
+    }
+    out["inputs"] = std::move(inputs);
+    out["outputs"] = std::move(outputs);
+    out["params"] = std::move(params);
+  }
+
+  /// What "visible_if" comes to with the values of now.
+  bool is_shown(const std::string& parameter) const {
+    std::vector<GraphParameter> parameters = inspected_.parameters;
+    const auto at = std::ranges::find(parameters, parameter, [](const GraphParameter& p) { return p.param.name; });
+    if (at == parameters.end() || !at->visible_if) return true;
+    std::vector<Problem> ignored;
+    Diagnostics diagnostics(ignored, "", "");
+    const JsonValue text = *at->visible_if;
+    const std::optional<Expression> condition = parse_expression(text, diagnostics);
+    if (!condition) return true;
+    GraphScope scope(parameters, {}, "", ignored);
+    if (!scope.lacking(*condition).nothing()) return true;
+    const std::optional<ParamValue> value = scope.evaluate(*condition, text, "", diagnostics);
+    const bool* shown = value ? std::get_if<bool>(&*value) : nullptr;
+    return !shown || *shown;
   }
 
   ordered_json node(const std::string& level, std::vector<std::string> path, const JsonMember& m, const Subgraph& graph,
@@ -175,17 +185,8 @@ class StateWriter {
     if (const JsonValue* loop = m.value.find("foreach")) out["foreach"] = json_of_value(*loop);
     const JsonValue* graphs = document_.find("graphs");
     if (inner && graphs && graphs->find(type->text)) out["level"] = type->text;
-    TypeAsJson described{ordered_json::array(), ordered_json::array(), ordered_json::array()};
-    if (known) described = known_type_as_json(*known);
-    if (inner) {
-      described = type_as_json(type_of_use(*inner, {}));
-      described.params = ordered_json::array();
-      for (const GraphParameter& p : inner->parameters) described.params.push_back(parameter_as_json(p));
-    }
     write_values(out, level, path, m, graph);
-    out["inputs"] = std::move(described.inputs);
-    out["outputs"] = std::move(described.outputs);
-    out["params"] = std::move(described.params);
+    if (!known) write_interface(out, inner);
     if (const auto at = layout.nodes.find(m.name); at != layout.nodes.end()) {
       out["x"] = at->second.x;
       out["y"] = at->second.y;
@@ -288,32 +289,6 @@ ordered_json state_json(const DocumentSnapshot& d, const FoundProblems& found) {
                  "note");
   out["problems"] = problems.take();
   return out;
-}
-
-const ordered_json& types_json() {
-  static const ordered_json all = [] {
-    ordered_json types = ordered_json::array(), graphs = ordered_json::array();
-    for (const NodeType& t : node_types()) types.push_back(json_of_type(t));
-    for (const StockGraph& stock : stock_graphs()) {
-      const GraphInterface graph = read_interface_text(stock.text, std::string(stock.name) + ".json");
-      ordered_json inputs = ordered_json::array(), outputs = ordered_json::array(), parameters = ordered_json::array();
-      for (const Port& p : graph.inputs) inputs.push_back(json_of_port(p));
-      for (const Port& p : graph.outputs) outputs.push_back(json_of_port(p));
-      for (const GraphParameter& p : graph.parameters) parameters.push_back(parameter_as_json(p));
-      graphs.push_back({{"name", "stock:" + std::string(stock.name)},
-                        {"category", graph_category},
-                        {"summary", graph.summary},
-                        {"help", graph.help},
-                        {"inputs", std::move(inputs)},
-                        {"outputs", std::move(outputs)},
-                        {"parameters", std::move(parameters)}});
-    }
-    ordered_json categories = categories_of(node_types());
-    categories.push_back(graph_category);
-    return ordered_json{
-        {"types", std::move(types)}, {"graphs", std::move(graphs)}, {"categories", std::move(categories)}};
-  }();
-  return all;
 }
 
 ordered_json preset_json(const DocumentSnapshot& d, const std::string& name) {

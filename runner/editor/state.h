@@ -19,15 +19,12 @@ struct FoundProblems {
   std::vector<Problem> errors, warnings, notes;
 };
 
-/// The whole state: revision, file, text, levels with nodes, ports, parameters and positions, problems. `found`: what
-/// else is known, such as what preflight finds; problems that are listed already are left out. Reads the graph files
-/// and tables that the graph names (set a ReadGuard to confine that). Never throws because of the document. Positions
-/// that are not in the layout are chosen here. The text may not be UTF-8: use dump's error handler `replace`.
-/// Thread-safe.
+/// The whole state: revision, file, text, levels with nodes and positions, problems. Ports and parameters of a node
+/// only if its type is not in types_json. `found`: what else is known, such as what preflight finds; problems that are
+/// listed already are left out. Reads the graph files and tables that the graph names (set a ReadGuard to confine
+/// that). Never throws because of the document. Positions that are not in the layout are chosen here. The text may not
+/// be UTF-8: use dump's error handler `replace`. Thread-safe.
 nlohmann::ordered_json state_json(const DocumentSnapshot& document, const FoundProblems& found = {});
-
-/// {"types": [...], "graphs": [...], "categories": [...]}: what nodes can be made of.
-const nlohmann::ordered_json& types_json();
 
 /// {"values": {...}} of a preset of the document: by target, "seed" or "node.parameter". Throws Error if there is none.
 nlohmann::ordered_json preset_json(const DocumentSnapshot& document, const std::string& name);

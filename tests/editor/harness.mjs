@@ -32,13 +32,14 @@ process.on('exit', () => { for (const server of servers) server.kill('SIGKILL');
 let folders = 0;
 export class Editor {
   /// A page that shows a graph of that text, in a folder of its own, which first holds what `prepare` writes into it.
-  static async open(text, {args = [], prepare, size = [1280, 800], dark = true} = {}) {
+  static async open(text, {args = [], prepare, layout, size = [1280, 800], dark = true} = {}) {
     const editor = new Editor();
     editor.folder = path.resolve(`graph-${++folders}`);
     fs.mkdirSync(editor.folder, {recursive: true});
     prepare?.(editor.folder);
     editor.file = path.join(editor.folder, 'graph.json');
     fs.writeFileSync(editor.file, text);
+    if (layout) fs.writeFileSync(path.join(editor.folder, 'graph.layout.json'), layout);
     editor.args = args;
     await editor.start();
     editor.page = page;
@@ -78,6 +79,9 @@ export class Editor {
   get text() { return fs.readFileSync(this.file, 'utf8'); }
   /// The document without comments, as far as the scenarios write such.
   get json() { return JSON.parse(this.text); }
+  get layout() { return JSON.parse(fs.readFileSync(path.join(this.folder, 'graph.layout.json'), 'utf8')); }
+  /// Waits until the positions are so.
+  laidOut(holds, what) { return this.saved(() => holds(), `${what} (${fs.existsSync(path.join(this.folder, 'graph.layout.json')) ? JSON.stringify(this.layout) : 'no layout'})`); }
   /// Waits until what is on the disk is so.
   async saved(holds, what) {
     for (const end = Date.now() + 6000; ;) {
@@ -101,7 +105,7 @@ export class Editor {
       [...document.querySelectorAll('.svelte-flow__node')].map((n) => n.dataset.id + n.style.transform + n.className).join());
     for (let before = '', now = await look(), same = 0; same < 2; before = now, now = await look()) {
       same = before === now ? same + 1 : 0;
-      await this.page.waitForTimeout(110);
+      await this.page.waitForTimeout(70);
     }
   }
 

@@ -97,6 +97,7 @@ scenario('the server dies and comes back', async () => {
   await e.kill();
   await page.locator('.banner', {hasText: 'lost'}).waitFor();
   await e.start(e.portNumber);
+  await page.locator('.banner', {hasText: 'Open the address that it has printed'}).waitFor({timeout: 12000});
   // The address that the new one prints lets this browser in again; the old page then goes on.
   const other = await e.context.newPage();
   await other.goto(e.address);

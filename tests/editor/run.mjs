@@ -3,5 +3,7 @@ import { runAll } from './harness.mjs';
 import './building.mjs';
 import './living.mjs';
 import './looking.mjs';
+import './canvas.mjs';
+import './forms.mjs';
 
 await runAll(process.argv[5]);

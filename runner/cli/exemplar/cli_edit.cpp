@@ -39,6 +39,15 @@ struct EditFlags {
 /// How often the program looks whether it has been told to stop.
 constexpr std::chrono::milliseconds between_looks_at_signals{50};
 
+/// As `new` makes it, whose argument has another name.
+NewGraph graph_for(const ExemplarFlags& exemplar, const fs::path& graph, const std::atomic<bool>& cancelled) try {
+  return new_graph(exemplar, graph, std::string(stock_graph_like(exemplar)), cancelled);
+} catch (const GraphError& e) {
+  std::vector<Problem> problems = e.problems();
+  for (Problem& p : problems) p.where.clear();
+  throw GraphError(e.file(), std::move(problems));
+}
+
 /// The graph file to edit: the one given, or that of a folder of maps or a picture, which is written if there is none.
 /// Nullopt if the folder makes no graph; `exit_code` then says why.
 std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<bool>& cancelled, int& exit_code) {
@@ -60,9 +69,7 @@ std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<
     return graph;
   }
   if (flags.read_only) throw UsageError(fmt::format("{} has no graph yet, and --read-only writes none", flags.graph));
-  const ExemplarFlags flags_of_exemplar{.folder = flags.graph};
-  const NewGraph made =
-      new_graph(flags_of_exemplar, graph, std::string(stock_graph_like(flags_of_exemplar)), cancelled);
+  const NewGraph made = graph_for({.folder = flags.graph}, graph, cancelled);
   exit_code = made.exit_code;
   if (exit_code != exit_done) return std::nullopt;
   write_whole_file(graph, made.text);

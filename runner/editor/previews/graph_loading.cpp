@@ -104,6 +104,55 @@ std::string with_only(JsonValue document, const std::set<std::string>& names) {
   return formatted(document);
 }
 
+/// The document's own node that a problem is about: "wall" for "wall[brick]/layout".
+std::string own_node(const Problem& p) {
+  return p.node.substr(0, p.node.find_first_of("[/"));
+}
+
+/// Adds the nodes that need one of these, directly or not.
+void add_dependents(const JsonValue& nodes, std::set<std::string>& names) {
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const JsonMember& m : nodes.members) {
+      std::set<std::string> needed;
+      add_named(m.value, needed);
+      if (!names.contains(m.name) && std::ranges::any_of(needed, [&](const auto& n) { return names.contains(n); }))
+        grows = names.insert(m.name).second;
+    }
+  }
+}
+
+/// Loads all nodes but those with mistakes and those that need them; null if a mistake is in no node.
+std::shared_ptr<const LoadedGraph> load_sound(const std::string& text, const fs::path& file,
+                                              std::vector<Problem> problems, const Sandbox& sandbox) {
+  constexpr int most_rounds = 8;  // leaving a node out may reveal mistakes of others
+  const ParsedJson parsed = parse_json(text);
+  const JsonValue* nodes = parsed.value ? parsed.value->find("nodes") : nullptr;
+  if (!nodes) return nullptr;
+  std::set<std::string> unsound;
+  for (int round = 0; round < most_rounds; round++) {
+    const size_t before = unsound.size();
+    for (const Problem& p : problems)
+      if (nodes->find(own_node(p))) unsound.insert(own_node(p));
+    if (unsound.size() == before) return nullptr;
+    add_dependents(*nodes, unsound);
+    std::set<std::string> sound;
+    for (const JsonMember& m : nodes->members)
+      if (!unsound.contains(m.name)) sound.insert(m.name);
+    if (sound.empty()) return nullptr;
+    try {
+      const std::shared_ptr<const LoadedGraph> loaded = load_within(with_only(*parsed.value, sound), file, sandbox);
+      problems = sandbox_problems(loaded->graph.nodes, sandbox);
+      if (problems.empty()) return loaded;
+    } catch (const GraphError& e) {
+      problems = e.problems();
+    } catch (const Error&) {
+      return nullptr;
+    }
+  }
+  return nullptr;
+}
+
 /// Loads as many of the wanted nodes as have no mistakes; null if none.
 std::shared_ptr<const LoadedGraph> load_parts(const std::string& text, const fs::path& file,
                                               const std::vector<NodeOfDocument>& wanted, const Sandbox& sandbox) {
@@ -173,6 +222,7 @@ EditedGraph load_variation(const std::string& text, const fs::path& file, std::v
 EditedGraph load_for_editing(const std::string& text, const fs::path& file, const std::vector<NodeOfDocument>& wanted,
                              const Sandbox& sandbox) {
   EditedGraph out;
+  out.begun = fs::file_time_type::clock::now();
   try {
     out.loaded = load_within(text, file, sandbox);
     out.unset = unset_parameters(*out.loaded);
@@ -183,6 +233,8 @@ EditedGraph load_for_editing(const std::string& text, const fs::path& file, cons
     out.problems = {{{}, "", e.what(), "", "", "input"}};
   }
   out.is_part = true;
+  out.loaded = load_sound(text, file, out.problems, sandbox);
+  if (out.loaded) return out;
   out.loaded = load_parts(text, file, wanted, sandbox);
   std::vector<Problem> known;
   if (out.loaded && !is_within(*out.loaded, sandbox, known)) out.loaded = nullptr;

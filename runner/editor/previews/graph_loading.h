@@ -18,9 +18,11 @@ struct EditedGraph {
   std::vector<Problem> problems{};
   /// Parameters that have no value yet, as warnings: nodes that need them are left out of the graph.
   std::vector<Problem> unset{};
+  std::filesystem::file_time_type begun{};  ///< when loading it began
 };
 
-/// Loads a document. If it has problems, loads what these nodes need of it. Reads only what the sandbox allows. Never
+/// Loads a document. If it has problems, loads the nodes without them, or, if a problem is in no node, what these nodes
+/// need of it. Reads only what the sandbox allows. Never
 /// throws because of the document.
 EditedGraph load_for_editing(const std::string& text, const std::filesystem::path& file,
                              const std::vector<NodeOfDocument>& wanted, const Sandbox& sandbox);
@@ -30,7 +32,7 @@ EditedGraph load_for_editing(const std::string& text, const std::filesystem::pat
 EditedGraph load_variation(const std::string& text, const std::filesystem::path& file, std::vector<Override> overrides,
                            const Sandbox& sandbox);
 
-/// What to run instead of these nodes, or of all nodes, so that no sink runs: of a sink what it reads.
+/// The nodes to run instead of sinks: what those read, and what nobody reads. `names`: which are meant; empty: all.
 std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names);
 
 /// Runs `act`, which reads files that a graph names, with the sandbox's ReadGuard.

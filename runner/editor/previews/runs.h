@@ -18,6 +18,7 @@
 #include "runner/editor/previews/picture_board.h"
 #include "runner/editor/previews/previews.h"
 #include "runner/editor/previews/sweeps.h"
+#include "runner/editor/previews/watched_files.h"
 #include "runner/editor/previews/wishes.h"
 
 namespace terrazzo {
@@ -43,6 +44,9 @@ class Runs {
 
   /// The document has this text now.
   void changed(std::string text, std::filesystem::path file);
+  /// Looks whether files have changed that the graph reads; if so, everything is looked at again. To be called about
+  /// once a second, by one thread.
+  bool look_at_files();
   /// What a tab wants to see, see Wishes::set. Throws Error.
   void show(const nlohmann::ordered_json& request);
   void forget(const std::string& tab);
@@ -87,6 +91,7 @@ class Runs {
   PictureBoard board_;
   Previews previews_;
   Sweeps sweeps_;
+  WatchedFiles files_;
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;

@@ -130,6 +130,26 @@ TEST_CASE("a text that is not JSON is edited as text") {
   CHECK(state_json(document.snapshot()).contains("broken"));
 }
 
+TEST_CASE("a text typed while the document changes is merged, or refused where both changed the same") {
+  const TemporaryFolder folder;
+  put(folder.path() / "g.json", small);
+  EditedDocument document(folder.path() / "g.json");
+  document.edit(request(R"({"op": "set", "node": "b", "key": "comment", "value": "theirs"})"));
+  std::string typed = small;
+  typed.replace(typed.find("pattern"), 7, "load_map");
+  const auto apply = [&](const std::string& text) {
+    return ordered_json{{"base", 1}, {"edits", {{{"op", "text"}, {"text", text}, {"was", small}}}}};
+  };
+  document.edit(apply(typed));
+  const std::string merged = document.snapshot().text;
+  CHECK(merged.find("load_map") != std::string::npos);
+  CHECK(merged.find("theirs") != std::string::npos);
+  std::string other = small;
+  other.replace(other.find("pattern"), 7, "load_material");
+  CHECK(refusal_of(document, apply(other)).find("/nodes/a/type") != std::string::npos);
+  CHECK(document.snapshot().text == merged);
+}
+
 TEST_CASE("a change on disk is taken over, merged or asked about") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "g.json";

@@ -295,6 +295,11 @@ TEST_CASE("a graph with mistakes shows what has none") {
   watched.wait();
   CHECK(!watched.pictures("result").empty());
   CHECK(watched.runs.findings().errors.size() >= 2);
+  // The others are planned all the same, and so is what nobody looks at.
+  const std::vector<Json> plans = watched.all("plan");
+  REQUIRE(!plans.empty());
+  CHECK(plans.back().at("stages").size() == 7);
+  CHECK(plans.back().at("stages").back().at("node") == "files");
   watched.change("{");
   watched.wait();
   CHECK(watched.runs.findings().errors.size() == 1);

@@ -3,11 +3,18 @@ import type { Edit, NodeType, Port } from '../state/protocol.ts';
 import { canvas, focusCanvas, focusNode } from '../state/canvas.svelte.ts';
 import { session } from '../state/session.svelte.ts';
 import { ui, type PaletteRequest, type Point } from '../state/ui.svelte.ts';
+import { nudgeBend, removeBend } from './bends.ts';
 import { firstFit, inputPort, inputsId, newPort, outputsId, reference, uniqueName, whyNot, type End } from './fit.ts';
 import { cardHeight, cardWidth, wireOf } from './model.ts';
 
 const count = (names: string[]) => names.length === 1 ? names[0]! : `${names.length} nodes`;
 const shownLevel = () => session.level;
+
+/// Says why nothing happens where the graph is only shown.
+function isLocked(): boolean {
+  if (session.readOnly) session.say('This graph is shown read-only.');
+  return session.readOnly;
+}
 
 function selectAdded(names: string[] | null) {
   if (!names?.length) return;
@@ -19,6 +26,7 @@ function selectAdded(names: string[] | null) {
 }
 
 export async function connect(from: End, to: End, replace?: {node: string; port: string; index: number}) {
+  if (isLocked()) return;
   const why = whyNot(shownLevel(), from, to);
   if (why) return session.say(why, 'error');
   const edits: Edit[] = replace ? [{op: 'disconnect', ...replace}] : [];
@@ -77,6 +85,8 @@ function freeRow(x: number, y: number): number {
 }
 
 export async function removeSelected() {
+  if (isLocked()) return;
+  if (canvas.bend) return removeBend(canvas.bend.wire, canvas.bend.index);
   const nodes = canvas.selected, wires = canvas.selectedWires, frames = canvas.selectedFrames;
   const edits: Edit[] = [];
   // From the last of a list to the first, so that indices stay right.
@@ -104,6 +114,7 @@ export async function copySelected(remove = false) {
 }
 
 export async function paste(text?: string) {
+  if (isLocked()) return;
   let pasted = text;
   try {
     pasted ??= await navigator.clipboard.readText();
@@ -115,6 +126,7 @@ export async function paste(text?: string) {
 }
 
 export async function duplicate() {
+  if (isLocked()) return;
   const nodes = canvas.selected;
   if (!nodes.length) return;
   const answer = await session.call<{text: string}>('copy', {level: session.levelName, nodes});
@@ -124,6 +136,7 @@ export async function duplicate() {
 }
 
 export function setOnSelected(key: 'mute' | 'pin') {
+  if (isLocked()) return;
   const nodes = session.level.nodes.filter((n) => canvas.selected.includes(n.name));
   if (!nodes.length) return;
   if (key === 'pin') {
@@ -136,6 +149,7 @@ export function setOnSelected(key: 'mute' | 'pin') {
 }
 
 export function rename(name: string) {
+  if (isLocked()) return;
   ui.ask('Rename the node', name, (to) => {
     if (to && to !== name)
       void session.edit(`rename ${name}`, {op: 'rename', node: name, to}).then((done) => done && selectAdded([to]));
@@ -143,6 +157,7 @@ export function rename(name: string) {
 }
 
 export function group() {
+  if (isLocked()) return;
   const nodes = canvas.selected;
   if (nodes.length) ui.ask('Group as a subgraph', uniqueName(session.level, 'part'), (name) =>
     void session.edit(`group ${count(nodes)}`, {op: 'group', nodes, name}).then((done) => done && selectAdded([name])),
@@ -173,13 +188,25 @@ export function align(how: Alignment) {
 }
 
 export function nudge(dx: number, dy: number) {
-  const nodes = session.level.nodes.filter((n) => canvas.selected.includes(n.name));
-  if (!nodes.length) return;
+  if (nudgeBend(dx, dy)) return;
+  const frames = session.level.frames.filter((f) => canvas.selectedFrames.includes(f.id));
+  const isInside = (n: {x: number; y: number}) => frames.some((f) => n.x >= f.x && n.x < f.x + f.width && n.y >= f.y && n.y < f.y + f.height);
+  const nodes = session.level.nodes.filter((n) => canvas.selected.includes(n.name) || isInside(n));
   const positions = Object.fromEntries(nodes.map((n) => [n.name, [n.x + dx, n.y + dy]]));
-  void session.edit(`move ${count(canvas.selected)}`, {op: 'move', positions});
+  const edits: Edit[] = nodes.length ? [{op: 'move', positions}] : [];
+  for (const {id, ...f} of frames) edits.push({op: 'frame', id, set: {...f, x: f.x + dx, y: f.y + dy}});
+  if (edits.length) void session.edit(frames.length ? 'move a frame' : `move ${count(canvas.selected)}`, ...edits);
+}
+
+export function retitle(id: string) {
+  const frame = session.level.frames.find((f) => f.id === id);
+  if (!frame || isLocked()) return;
+  const {id: _, ...old} = frame;
+  ui.ask('Title of the frame', old.title, (title) => void session.edit('rename a frame', {op: 'frame', id, set: {...old, title}}));
 }
 
 export function frame() {
+  if (isLocked()) return;
   const nodes = session.level.nodes.filter((n) => canvas.selected.includes(n.name));
   const centre = canvas.pane?.centre().canvas ?? {x: 0, y: 0};
   const x = nodes.length ? Math.min(...nodes.map((n) => n.x)) - 20 : centre.x - 150;
@@ -190,12 +217,13 @@ export function frame() {
 }
 
 export function openPalette(screen?: Point, wire?: {node: string; port: Port; side: 'source' | 'target'}) {
-  if (session.readOnly) return session.say('This graph is shown read-only.');
+  if (isLocked()) return;
   const where = screen ?? canvas.pointer ?? canvas.pane?.centre().screen ?? {x: 300, y: 200};
   ui.palette = {screen: where, at: canvas.pane?.toCanvas(where), wire};
 }
 
 export function openBehind() {
+  if (isLocked()) return;
   const {current} = canvas;
   if (!current) return openPalette();
   const box = document.querySelector(`.svelte-flow__node[data-id="${CSS.escape(current)}"]`)?.getBoundingClientRect();

@@ -3,7 +3,7 @@ import type { Edit } from '../state/protocol.ts';
 import { canvas } from '../state/canvas.svelte.ts';
 import { session } from '../state/session.svelte.ts';
 import { firstFit, outputPort } from './fit.ts';
-import { wireOf, type CanvasNode } from './model.ts';
+import { cardWidth, keyOfWire, rectangle, wireOf, type CanvasNode } from './model.ts';
 
 let carried: {frame: string; from: {x: number; y: number}; nodes: {id: string; x: number; y: number}[]}[] = [];
 
@@ -25,33 +25,73 @@ export function hover(nodes: CanvasNode[]) {
     const places = new Map(inside.map((n) => [n.id, {x: n.x + now.x - from.x, y: n.y + now.y - from.y}]));
     canvas.nodes = canvas.nodes.map((n) => places.has(n.id) ? {...n, position: places.get(n.id)!} : n);
   }
-  canvas.dropWire = nodes.length === 1 && nodes[0]!.type === 'card' ? wireUnder(nodes[0]!.id) : null;
+  canvas.dropWire = nodes.length === 1 && nodes[0]!.type === 'card' ? wireUnder(nodes[0]!) : null;
 }
 
-// Only for a node without wires that has an input and an output of the wire's type.
-function wireUnder(name: string): string | null {
-  const node = session.node(name);
-  if (!node || canvas.wiresOf(name).length) return null;
-  const box = document.querySelector(`.svelte-flow__node[data-id="${CSS.escape(name)}"]`)?.getBoundingClientRect();
-  if (!box) return null;
-  for (const [u, v] of [[0.5, 0.5], [0.25, 0.5], [0.75, 0.5], [0.5, 0.25], [0.5, 0.75]] as const)
-    for (const element of document.elementsFromPoint(box.left + u * box.width, box.top + v * box.height)) {
-      const id = element.closest<HTMLElement>('.svelte-flow__edge')?.dataset.id;
-      const edge = id && canvas.edges.find((e) => e.id === id);
-      if (!edge) continue;
-      const type = outputPort(session.level, {node: edge.source, port: edge.sourceHandle ?? ''})?.type ?? '';
-      if (firstFit(node.inputs, type) && firstFit(node.outputs, type)) return edge.id;
+// The wire that passes nearest to the middle of the card; only for a node without wires that has an input and an output of
+// the wire's type.
+function wireUnder(dragged: CanvasNode): string | null {
+  const node = session.node(dragged.id);
+  if (!node || canvas.wiresOf(node.name).length) return null;
+  const samples = 32, r = rectangle(dragged);
+  let best: string | null = null, least = Infinity;
+  for (const edge of canvas.edges) {
+    const type = outputPort(session.level, {node: edge.source, port: edge.sourceHandle ?? ''})?.type ?? '';
+    if (!firstFit(node.inputs, type) || !firstFit(node.outputs, type)) continue;
+    const path = document.querySelector<SVGPathElement>(`.svelte-flow__edge[data-id="${CSS.escape(edge.id)}"] path`);
+    const length = path?.getTotalLength() ?? 0;
+    for (let step = 0; path && step <= samples; ++step) {
+      const {x, y} = path.getPointAtLength(length * step / samples);
+      if (x < r.x || x > r.x + r.width || y < r.y || y > r.y + r.height) continue;
+      const distance = Math.hypot(x - r.x - r.width / 2, y - r.y - r.height / 2);
+      if (distance < least) { least = distance; best = edge.id; }
     }
-  return null;
+  }
+  return best;
+}
+
+/// The node that goes into a wire gets a column of its own: what stands where its end is, or behind, moves to the right.
+function makeRoom(dropped: CanvasNode, wire: string, positions: Record<string, [number, number]>): Edit[] {
+  const gap = 40, edge = canvas.edges.find((e) => e.id === wire)!, edits: Edit[] = [];
+  const source = canvas.nodes.find((n) => n.id === edge.source), target = canvas.nodes.find((n) => n.id === edge.target);
+  if (!source || !target) return [];
+  const {height} = rectangle(dropped), [left, top] = positions[dropped.id]!, others = canvas.nodes.filter((n) => n.type === 'card' && n.id !== dropped.id);
+  const x = Math.round(Math.max(left, source.position.x + rectangle(source).width + gap));
+  const begin = target.position.x, by = Math.round(Math.max(0, x + cardWidth + gap - begin));
+  const place = (n: CanvasNode) => ({...rectangle(n), x: n.position.x + (n.position.x >= begin ? by : 0)});
+  if (by > 0 && target.type === 'card') {
+    for (const n of others) if (n.position.x >= begin) positions[n.id] = [Math.round(n.position.x + by), Math.round(n.position.y)];
+    for (const n of canvas.nodes) if (n.type === 'frame') {
+      const {id, ...frame} = n.data.frame;
+      if (frame.x >= begin) edits.push({op: 'frame', id, set: {...frame, x: frame.x + by}});
+      else if (frame.x + frame.width > begin) edits.push({op: 'frame', id, set: {...frame, width: frame.width + by}});
+    }
+  }
+  // The nearest free row.
+  const isFree = (y: number) => others.map(place).every((r) => Math.abs(r.x - x) >= cardWidth + 8 || y + height + 12 <= r.y || r.y + r.height + 12 <= y);
+  let y = top;
+  for (let step = 0; step < 400 && !isFree(y); ++step) y = top + (step % 2 ? 8 : -8) * Math.ceil(step / 2);
+  positions[dropped.id] = [x, Math.round(y)];
+  return edits;
+}
+
+/// Bends go with a wire whose ends both move.
+function movedBends(moved: Set<string>): Edit[] {
+  return canvas.edges.flatMap((edge): Edit[] => {
+    const {bends} = edge.data!, source = session.node(edge.source), now = canvas.nodes.find((n) => n.id === edge.source)?.position;
+    if (!bends.length || !source || !now || !moved.has(edge.source) || !moved.has(edge.target)) return [];
+    return [{op: 'bend', wire: keyOfWire(edge), points: bends.map(({x, y}) => [Math.round(x + now.x - source.x), Math.round(y + now.y - source.y)])}];
+  });
 }
 
 export function drop(nodes: CanvasNode[]) {
   const edits: Edit[] = [], positions: Record<string, [number, number]> = {};
-  const moved = new Set([...nodes.filter((n) => n.type === 'card').map((n) => n.id), ...carried.flatMap((c) => c.nodes.map((n) => n.id))]);
+  const moved = new Set([...nodes.filter((n) => n.type === 'card' || n.type === 'ports').map((n) => n.id), ...carried.flatMap((c) => c.nodes.map((n) => n.id))]);
   for (const node of canvas.nodes)
     if (moved.has(node.id)) positions[node.id] = [Math.round(node.position.x), Math.round(node.position.y)];
   const names = Object.keys(positions), into = canvas.dropWire;
-  if (names.length) edits.push({op: 'move', positions});
+  if (into && nodes[0]) edits.push(...makeRoom(nodes[0], into, positions));
+  if (names.length) edits.push({op: 'move', positions}, ...movedBends(moved));
   for (const node of nodes) if (node.type === 'frame') {
     const {id, ...frame} = node.data.frame;
     edits.push({op: 'frame', id, set: {...frame, x: Math.round(node.position.x), y: Math.round(node.position.y)}});

@@ -64,6 +64,12 @@ export function targets(level: Level, from: End): {node: GraphNode; port: Port; 
   return found.sort((a, b) => Number(a.taken) - Number(b.taken));
 }
 
+/// Where an input may get its wire from; in a subgraph also from its inputs.
+export function sources(level: Level, to: End): End[] {
+  const all = [...level.inputs.map((p) => ({node: inputsId, port: p.name})), ...level.nodes.flatMap((n) => n.outputs.map((p) => ({node: n.name, port: p.name})))];
+  return all.filter((from) => !whyNot(level, from, to));
+}
+
 export function uniqueName(level: Level, type: string): string {
   const base = type.replace(/^.*:/, '').replace(/[^A-Za-z0-9_]/g, '_');
   const taken = new Set([...level.nodes.map((n) => n.name), ...level.parameters.map((p) => p.name), ...level.inputs.map((p) => p.name)]);

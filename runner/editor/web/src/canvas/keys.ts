@@ -4,7 +4,8 @@ import { runs } from '../state/runs.svelte.ts';
 import { session } from '../state/session.svelte.ts';
 import { ui } from '../state/ui.svelte.ts';
 import * as act from './actions.ts';
-import { look, nodeMenu, paneMenu, wireMenu } from './menus.ts';
+import { bendSelected, nextBend } from './bends.ts';
+import { bendMenu, frameMenu, look, nodeMenu, paneMenu, wireMenu } from './menus.ts';
 import { cardHeight, wireOf } from './model.ts';
 
 // Left and right go along wires, up and down to the nearest node; without wires all four do.
@@ -44,10 +45,14 @@ function nextWire() {
 }
 
 function menuByKey() {
-  const {current} = canvas, wire = canvas.selectedWires[0];
-  const box = current ? document.querySelector(`.svelte-flow__node[data-id="${CSS.escape(current)}"]`)?.getBoundingClientRect() : null;
-  const at = box ? {x: box.left + 20, y: box.top + 30} : canvas.pane?.centre().screen ?? {x: 200, y: 200};
-  if (current) nodeMenu(at, current);
+  const name = canvas.selected[0], frame = canvas.selectedFrames[0], wire = canvas.selectedWires[0], {bend} = canvas;
+  const id = name ?? (frame === undefined ? undefined : 'frame:' + frame);
+  const element = id !== undefined ? `.svelte-flow__node[data-id="${CSS.escape(id)}"]` : bend ? '.bend.picked' : wire ? `.svelte-flow__edge[data-id="${CSS.escape(wire)}"] path` : '';
+  const box = element ? document.querySelector(element)?.getBoundingClientRect() : null;
+  const at = !box ? canvas.pane?.centre().screen ?? {x: 200, y: 200} : id === undefined ? {x: box.left + box.width / 2, y: box.top + box.height / 2} : {x: box.left + 20, y: box.top + 30};
+  if (name !== undefined) nodeMenu(at, name);
+  else if (frame !== undefined) frameMenu(at, frame);
+  else if (bend) bendMenu(at, bend.wire, bend.index);
   else if (wire) wireMenu(at, wire);
   else paneMenu(at);
 }
@@ -77,8 +82,9 @@ const plain: Record<string, (event: KeyboardEvent) => void> = {
   l: () => { if (canvas.current) look(canvas.current); },
   u: () => session.leave(),
   w: nextWire,
+  b: (event) => event.shiftKey ? nextBend() : bendSelected(),
   v: () => { ui.viewOpen = !ui.viewOpen; ui.keep(); },
-  F2: () => { if (canvas.current) act.rename(canvas.current); },
+  F2: () => { if (canvas.current) act.rename(canvas.current); else if (canvas.selectedFrames[0]) act.retitle(canvas.selectedFrames[0]); },
   Enter: () => { if (canvas.current && !session.enter(canvas.current)) look(canvas.current); },
   '+': () => canvas.pane?.zoomBy(1.25),
   '=': () => canvas.pane?.zoomBy(1.25),
@@ -89,8 +95,8 @@ const plain: Record<string, (event: KeyboardEvent) => void> = {
   Escape: () => { canvas.select([]); focusCanvas(); },
 };
 
-// What changes the graph, or writes files: nothing happens where it is only shown.
-const changing = new Set(['Delete', 'Backspace', 'F2', 'Tab', ' ', 'm', 'p', 'c']);
+// What changes the graph, or writes files, where it is only shown: the page says so, and nothing happens.
+const changing = new Set(['Delete', 'Backspace', 'F2', 'Tab', ' ', 'm', 'p', 'c', 'b']);
 const changingWithControl = new Set(['z', 'y', 'x', 'd', 'g', 'Enter']);
 
 const writes = 'input, textarea, select, [contenteditable]';
@@ -116,13 +122,13 @@ export function onkeydown(event: KeyboardEvent) {
   if (event.key === '?') { take(); ui.help = true; return; }
   if (event.ctrlKey || event.metaKey) {
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, known = withControl[key];
-    if (session.readOnly && changingWithControl.has(key)) return;
+    if (session.readOnly && changingWithControl.has(key)) { if (onCanvas) session.say('This graph is shown read-only.'); return; }
     const copies = ['c', 'x'].includes(event.key.toLowerCase()) && !!getSelection()?.toString();
     if (known && !copies && (onCanvas || ['z', 'y', 'f', 's', 'Enter'].includes(event.key.toLowerCase()) || event.key === 'Enter')) { take(); known(event); }
     return;
   }
-  // Buttons of panels keep their keys.
-  if (!onCanvas || target.closest?.('button')) return;
+  // Buttons keep their keys.
+  if (!onCanvas || (target.closest?.('button') && ['Enter', ' ', 'Tab'].includes(event.key))) return;
   if (event.key.startsWith('Arrow')) {
     take();
     const [x, y] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key]!;
@@ -132,7 +138,10 @@ export function onkeydown(event: KeyboardEvent) {
   }
   if (event.altKey || (event.key === 'Tab' && event.shiftKey)) return;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, known = plain[key];
-  if (session.readOnly && (changing.has(key) || key === 'f' && event.shiftKey)) return;
+  if (session.readOnly && (changing.has(key) || key === 'f' && event.shiftKey)) {
+    if (key !== 'Tab') session.say('This graph is shown read-only.');
+    return;
+  }
   if (known) { take(); known(event); }
 }
 

@@ -4,6 +4,7 @@ import { runs } from '../state/runs.svelte.ts';
 import { session } from '../state/session.svelte.ts';
 import { ui, type MenuItem, type Point } from '../state/ui.svelte.ts';
 import * as act from './actions.ts';
+import { addBend, removeBend, setBends } from './bends.ts';
 
 const separator: MenuItem = {label: '-'};
 
@@ -41,16 +42,26 @@ export function nodeMenu(at: Point, name: string) {
 
 export function wireMenu(at: Point, id: string) {
   canvas.select([], [id]);
+  const place = canvas.pane?.toCanvas(at), bends = canvas.edges.find((e) => e.id === id)?.data?.bends ?? [];
   ui.menu = {at, label: 'wire', items: [
+    {label: 'Bend it here', keys: 'B', act: () => place && addBend(id, place), disabled: session.readOnly},
+    ...(bends.length ? [{label: 'Without bends', act: () => void setBends(id, [], 'straighten a wire'), disabled: session.readOnly}] : []),
     {label: 'Remove the wire', keys: 'Del', act: () => void act.disconnect(id), disabled: session.readOnly},
     {label: 'Go to its source', act: () => canvas.go(canvas.edges.find((e) => e.id === id)!.source)},
     {label: 'Go to its end', act: () => canvas.go(canvas.edges.find((e) => e.id === id)!.target)},
   ]};
 }
 
+export function bendMenu(at: Point, id: string, index: number) {
+  canvas.select([], [id]);
+  canvas.pickedBend = {wire: id, index};
+  ui.menu = {at, label: 'bend', items: [{label: 'Remove the bend', keys: 'Del', act: () => removeBend(id, index), disabled: session.readOnly}]};
+}
+
 export function frameMenu(at: Point, id: string) {
   canvas.select(['frame:' + id]);
   ui.menu = {at, label: 'frame', items: [
+    {label: 'Title …', keys: 'F2', act: () => act.retitle(id), disabled: session.readOnly},
     {label: 'Remove the frame', keys: 'Del', act: () => void act.removeSelected(), disabled: session.readOnly}]};
 }
 

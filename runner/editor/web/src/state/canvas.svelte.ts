@@ -19,9 +19,13 @@ class Canvas {
   pointer: Point | null = null;  // over the canvas, on the screen
   dropWire = $state<string | null>(null);  // the wire that a dragged node would be put into
 
+  pickedBend = $state.raw<{wire: string; index: number} | null>(null);
+
   selected = $derived(this.nodes.filter((n) => n.selected && n.type === 'card').map((n) => n.id));
   selectedFrames = $derived(this.nodes.filter((n) => n.selected && n.type === 'frame').map((n) => n.id.slice(6)));
   selectedWires = $derived(this.edges.filter((e) => e.selected).map((e) => e.id));
+  /// The bend that keys are about: of the selected wire.
+  bend = $derived(this.pickedBend && this.selectedWires.includes(this.pickedBend.wire) ? this.pickedBend : null);
   /// The node that panels and the view are about.
   current = $derived(this.selected.length === 1 ? this.selected[0]! : null);
 
@@ -33,6 +37,7 @@ class Canvas {
 
   select(names: Iterable<string>, wires: Iterable<string> = []) {
     const wanted = new Set(names), lines = new Set(wires);
+    this.pickedBend = null;
     this.nodes = this.nodes.map((n) => !!n.selected === wanted.has(n.id) ? n : {...n, selected: wanted.has(n.id)});
     this.edges = this.edges.map((e) => !!e.selected === lines.has(e.id) ? e : {...e, selected: lines.has(e.id)});
   }

@@ -1,5 +1,5 @@
 // One stream of events from the program; it comes back after the program or the network was away.
-import type { DocumentState } from './protocol.ts';
+import { ask, Refused, type DocumentState } from './protocol.ts';
 import { runs } from './runs.svelte.ts';
 import { session, tab } from './session.svelte.ts';
 import { sweep } from './sweep.svelte.ts';
@@ -18,9 +18,13 @@ export function listen(): () => void {
       const wasLost = !session.connected;
       retry = 0;
       if (wasLost || !session.document)
-        session.refresh().then(() => { session.connected = true; session.stopped = false; }, lost);
+        session.refresh().then(() => { session.connected = true; session.stopped = session.shutOut = false; }, lost);
     };
-    source.onerror = lost;
+    source.onerror = () => {
+      lost();
+      // The stream does not say why.
+      ask('state').then(() => { session.shutOut = false; }, (error: unknown) => { session.shutOut = error instanceof Refused && error.status === 403; });
+    };
     on('state', (document: DocumentState) => session.take(document));
     on('plan', (plan: {stages: []; summary: string}) => runs.takePlan(plan));
     on('picture', (picture: never) => runs.takePicture(picture));

@@ -7,7 +7,7 @@ export interface Param {
   unit?: string; help: string; group?: string; min_count?: number; max_count?: number;
 }
 
-export interface GraphParam extends Param {value?: unknown; pointer?: string}
+export interface GraphParam extends Param {value?: unknown; pointer?: string; visible_if?: string; hidden?: boolean}
 
 export interface Wire {port: string; index: number; node: string; output: string; pointer?: string}
 
@@ -26,6 +26,8 @@ export interface Level {
   summary: string; help: string; parameters: GraphParam[]; inputs: Port[];
   outputs: {name: string; type: string; from: string}[]; presets: Preset[]; nodes: GraphNode[];
   frames: Frame[];
+  bends: Record<string, [number, number][]>;   // by "node.output > node.input"
+  boxes: Record<string, [number, number]>;     // where the boxes of the inputs and outputs were moved to
 }
 
 export interface Problem {
@@ -43,6 +45,7 @@ export interface DocumentState {
 /// A node type, as `terrazzo nodes --json` describes it, with ports as those of nodes.
 export interface NodeType {
   name: string; category: string; summary: string; help: string; inputs: Port[]; outputs: Port[]; parameters: Param[];
+  uses: number; behind: Record<string, number>;  // in the stock graphs: how often, and how often behind which type
 }
 
 export interface Picture {
@@ -83,16 +86,22 @@ export async function ask<T>(name: string, body: object = {}): Promise<T> {
 }
 
 interface DescribedPort {name: string; type: string; help?: string; optional?: boolean; required?: boolean; list?: boolean}
-type Described = Omit<NodeType, 'inputs' | 'outputs' | 'parameters'> &
+type Described = Omit<NodeType, 'inputs' | 'outputs' | 'parameters' | 'uses' | 'behind'> &
   {inputs: DescribedPort[]; outputs: DescribedPort[]; parameters?: Param[]; params?: Param[]};
+interface Types {
+  types: Described[]; graphs?: Described[]; categories?: string[]; uses?: Record<string, {count: number; behind: Record<string, number>}>;
+}
 
 const portOf = (p: DescribedPort): Port =>
   ({name: p.name, type: p.type, required: p.required ?? !p.optional, list: p.list ?? false, help: p.help ?? ''});
 
 export async function askTypes(): Promise<{types: NodeType[]; categories: string[]}> {
-  const answer = await ask<{types: Described[]; graphs?: Described[]; categories?: string[]}>('types');
+  const answer = await ask<Types>('types');
+  // Of types that are used equally often, those that come first in graphs.
+  const place = new Map(Object.keys(answer.uses ?? {}).map((name, index) => [name, index / 1000]));
   const types = [...answer.types, ...(answer.graphs ?? [])].map((t) => ({
     ...t, inputs: t.inputs.map(portOf), outputs: t.outputs.map(portOf), parameters: t.parameters ?? t.params ?? [],
+    uses: (answer.uses?.[t.name]?.count ?? 0) - (place.get(t.name) ?? 0), behind: answer.uses?.[t.name]?.behind ?? {},
   }));
   return {types, categories: answer.categories ?? [...new Set(types.map((t) => t.category))]};
 }

@@ -24,7 +24,7 @@ class Runs {
   takePlan(plan: {stages?: PlannedStage[]; summary?: string}) {
     this.plan.clear();
     for (const stage of plan.stages ?? []) this.plan.set(stage.node, stage);
-    this.summary = plan.summary ?? '';
+    this.summary = plan.stages?.length ? plan.summary ?? '' : '';
   }
 
   takePicture(picture: Picture) {

@@ -1,10 +1,10 @@
 // The document as the program last told it, the connection, and what is asked of the program.
-import { ask, askTypes, Refused, Unreachable, type DocumentState, type Edit, type Level, type NodeType } from './protocol.ts';
+import { ask, askTypes, Refused, Unreachable, type DocumentState, type Edit, type GraphNode, type Level, type NodeType } from './protocol.ts';
 
 export interface Toast {id: number; text: string; kind: 'error' | 'info'}
 
 const noLevel: Level =
-  {summary: '', help: '', parameters: [], inputs: [], outputs: [], presets: [], nodes: [], frames: []};
+  {summary: '', help: '', parameters: [], inputs: [], outputs: [], presets: [], nodes: [], frames: [], bends: {}, boxes: {}};
 
 class Session {
   document = $state.raw<DocumentState | null>(null);
@@ -12,6 +12,7 @@ class Session {
   categories = $state.raw<string[]>([]);
   connected = $state(true);
   stopped = $state(false);  // the program said goodbye
+  shutOut = $state(false);  // it was started again, and does not know this browser
   toasts = $state.raw<Toast[]>([]);
   /// From the main graph to the level that is shown: the node that each was entered through.
   path = $state.raw<{level: string; via: string}[]>([]);
@@ -22,10 +23,11 @@ class Session {
   /// What the names of a run's nodes begin with at this level.
   prefix = $derived(this.path.map((step) => step.via + '/').join(''));
 
+  #typesByName = $derived(new Map(this.types.map((type) => [type.name, type])));
   #lastToast = 0;
   #waiting: {revision: number; done: () => void}[] = [];
 
-  typeNamed(name: string): NodeType | undefined { return this.types.find((type) => type.name === name); }
+  typeNamed(name: string): NodeType | undefined { return this.#typesByName.get(name); }
   node(name: string) { return this.level.nodes.find((node) => node.name === name); }
 
   say(text: string, kind: Toast['kind'] = 'info') {
@@ -37,6 +39,9 @@ class Session {
   unsay(id: number) { this.toasts = this.toasts.filter((toast) => toast.id !== id); }
 
   take(document: DocumentState) {
+    // The first event may come before the types are known; refresh then asks for the state.
+    if (!this.types.length) return;
+    for (const level of Object.values(document.levels)) for (const node of level.nodes) this.#describe(node);
     // Answers and events may cross; an older state must not replace a newer one.
     if (this.document && document.revision < this.document.revision && this.connected) return;
     this.document = document;
@@ -44,6 +49,15 @@ class Session {
     if (gone >= 0 && !document.broken) this.path = this.path.slice(0, gone);
     for (const waiting of this.#waiting) if (document.revision >= waiting.revision) waiting.done();
     this.#waiting = this.#waiting.filter((waiting) => document.revision < waiting.revision);
+  }
+
+  // Nodes of the program's own types come without what the types say already.
+  #describe(node: GraphNode) {
+    if (node.params) return;
+    const type = this.#typesByName.get(node.type);
+    node.inputs = type?.inputs ?? [];
+    node.outputs = type?.outputs ?? [];
+    node.params = type?.parameters ?? [];
   }
 
   async refresh() {

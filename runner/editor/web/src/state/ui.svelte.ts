@@ -27,7 +27,8 @@ export type Dock = 'right' | 'left' | 'large';
 class Ui {
   palette = $state.raw<PaletteRequest | null>(null);
   menu = $state.raw<{at: Point; items: MenuItem[]; label: string} | null>(null);
-  connecting = $state.raw<{node: string} | null>(null);
+  /// From an output of the node; or, with a port, from wherever to that input.
+  connecting = $state.raw<{node: string; port?: string} | null>(null);
   asking = $state.raw<{title: string; value: string; hint?: string; answer: (text: string) => void} | null>(null);
   choosingFile = $state.raw<{value: string; choose: (path: string) => void} | null>(null);
   finding = $state(false);
@@ -41,6 +42,8 @@ class Ui {
   minimap = $state(stored('minimap', true));
   /// Typed into the text of the document and not applied; null: the text is the document's.
   draft = $state<string | null>(null);
+  /// The document's text when that was begun.
+  draftOf = '';
 
   dark = $derived(this.theme === 'dark' || (this.theme === 'system' && this.#systemDark()));
   #system = matchMedia('(prefers-color-scheme: dark)');

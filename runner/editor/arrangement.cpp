@@ -1,0 +1,148 @@
+#include "runner/editor/arrangement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/node/node.h"
+#include "graphs/edit/edit_context.h"
+#include "graphs/text/stock_graphs.h"
+#include "graphs/tools/layout.h"
+
+namespace terrazzo {
+
+namespace {
+
+// As in the page's canvas/model.ts and canvas.css.
+constexpr double card_width = 176, bare_height = 49, port_height = 17, picture_height = 96;
+constexpr double room_beside = 56, room_below = 20, middle_of_head = 12;
+
+size_t member_count(const JsonValue& graph, const char* section) {
+  const JsonValue* all = graph.find(section);
+  return all ? all->members.size() : 0;
+}
+
+size_t rows_of_graph(const JsonValue& graph) {
+  return std::max(member_count(graph, "inputs"), member_count(graph, "outputs"));
+}
+
+/// By type: how many rows of ports a card has.
+const std::map<std::string, size_t, std::less<>>& known_rows() {
+  static const auto all = [] {
+    std::map<std::string, size_t, std::less<>> out;
+    for (const NodeType& t : node_types()) out.emplace(t.name, std::max(t.inputs.size(), t.outputs.size()));
+    for (const StockGraph& g : stock_graphs())
+      if (const ParsedJson parsed = parse_json(g.text); parsed.value)
+        out.emplace("stock:" + std::string(g.name), rows_of_graph(*parsed.value));
+    return out;
+  }();
+  return all;
+}
+
+double height_of(const JsonValue& document, const JsonValue& node, size_t sources) {
+  size_t rows = std::max<size_t>(1, sources);  // of a type that is not known here
+  const JsonValue* type = node.find("type");
+  const JsonValue* graphs = document.find("graphs");
+  if (type && type->is_text()) {
+    if (const JsonValue* graph = graphs ? graphs->find(type->text) : nullptr)
+      rows = rows_of_graph(*graph);
+    else if (const auto at = known_rows().find(type->text); at != known_rows().end())
+      rows = at->second;
+  }
+  return bare_height + port_height * double(rows);
+}
+
+}  // namespace
+
+Arrangement::Arrangement(const JsonValue& document, const JsonValue& nodes) {
+  for (const JsonMember& m : nodes.members) positions_.emplace(m.name, names_.size()), names_.push_back(m.name);
+  sources_.resize(names_.size());
+  for (const JsonMember& m : nodes.members) {
+    const size_t i = positions_.at(m.name);
+    for (const std::string& named : edits::named_nodes(m.value))
+      if (const auto at = positions_.find(named); at != positions_.end() && at->second != i)
+        sources_[i].push_back(at->second);
+    heights_.push_back(height_of(document, m.value, sources_[i].size()));
+  }
+  sort();
+}
+
+Arrangement::Positions Arrangement::automatic() const {
+  std::vector<size_t> rank(names_.size());
+  for (size_t k = 0; k < order_.size(); k++) rank[order_[k]] = k;
+  std::vector<BoxSize> boxes;
+  std::vector<LayoutWire> wires;
+  for (const size_t i : order_) boxes.push_back({card_width, heights_[i]});
+  for (const size_t i : order_)
+    for (const size_t source : sources_[i])
+      if (rank[source] < rank[i]) wires.push_back({rank[source], middle_of_head, rank[i], middle_of_head});
+  const Layout layout = lay_out(boxes, wires);
+  Positions out;
+  for (size_t k = 0; k < order_.size(); k++)
+    out[names_[order_[k]]] = {std::round(layout.corners[k].x), std::round(layout.corners[k].y), false};
+  return out;
+}
+
+Arrangement::Positions Arrangement::completed(Positions known) const {
+  if (std::ranges::all_of(names_, [&](const std::string& n) { return known.contains(n); })) return known;
+  if (known.empty()) return automatic();
+  std::optional<Positions> all;  // takes a while
+  for (const size_t i : order_) {
+    if (known.contains(names_[i])) continue;
+    NodePlace place;
+    bool has_source = false;
+    for (const size_t s : sources_[i]) {
+      const auto at = known.find(names_[s]);
+      if (at == known.end() || (has_source && at->second.x + card_width + room_beside <= place.x)) continue;
+      place = {at->second.x + card_width + room_beside, at->second.y, false};
+      has_source = true;
+    }
+    if (!has_source) {
+      if (!all) all = automatic();
+      place = all->at(names_[i]);
+    }
+    known[names_[i]] = free_place(place, i, known);
+  }
+  return known;
+}
+
+NodePlace Arrangement::free_place(NodePlace place, size_t node, const Positions& known) const {
+  const auto bottom = [&](const std::pair<const std::string, NodePlace>& other) {
+    const auto at = positions_.find(other.first);
+    return other.second.y + (at == positions_.end() ? bare_height : heights_[at->second]) +
+           (other.second.pinned ? picture_height : 0) + room_below;
+  };
+  const auto covers = [&](const auto& other) {
+    return std::abs(other.second.x - place.x) < card_width && place.y < bottom(other) &&
+           other.second.y < place.y + heights_[node] + room_below;
+  };
+  for (size_t tries = 0; tries <= known.size(); tries++) {
+    const auto at = std::ranges::find_if(known, covers);
+    if (at == known.end()) break;
+    place.y = bottom(*at);
+  }
+  return place;
+}
+
+void Arrangement::sort() {
+  enum class State : uint8_t { unseen, open, done };
+  std::vector<State> state(names_.size(), State::unseen);
+  for (size_t start = 0; start < names_.size(); start++) {
+    if (state[start] != State::unseen) continue;
+    std::vector<std::pair<size_t, size_t>> path = {{start, 0}};
+    state[start] = State::open;
+    while (!path.empty()) {
+      auto& [node, next] = path.back();
+      if (next == sources_[node].size()) {
+        state[node] = State::done;
+        order_.push_back(node);
+        path.pop_back();
+      } else if (const size_t source = sources_[node][next++]; state[source] == State::unseen) {
+        state[source] = State::open;
+        path.emplace_back(source, 0);
+      }
+    }
+  }
+}
+
+}  // namespace terrazzo
