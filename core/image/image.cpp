@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
+#include <functional>
+#include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include <Imath/half.h>
 #include <fmt/format.h>
@@ -17,47 +19,44 @@ namespace terrazzo {
 
 namespace {
 
-class FloatPixels : public PixelSource {
+/// Pixels in memory as values of type T, of which `Convert` makes floats.
+template <typename T, typename Convert>
+class HeldPixels : public PixelSource {
  public:
-  FloatPixels(const ImageInfo& info, std::vector<float> pixels)
+  HeldPixels(const ImageInfo& info, std::vector<T> pixels)
       : stride_(size_t(info.size.width) * info.channels),
         channels_(info.channels),
         pixels_(std::move(pixels)),
-        room_(pixels_.size() * sizeof(float)) {}
-  void read(const Rect& r, float* out) const override {
-    const size_t row = size_t(r.width) * channels_;
-    for (int y = 0; y < r.height; y++)
-      std::memcpy(out + y * row, &pixels_[size_t(r.y + y) * stride_ + size_t(r.x) * channels_], row * sizeof(float));
-  }
-  const float* in_memory() const override { return pixels_.data(); }
-
- private:
-  size_t stride_;
-  int channels_;
-  std::vector<float> pixels_;
-  PixelRoom room_;
-};
-
-class HalfPixels : public PixelSource {
- public:
-  HalfPixels(const ImageInfo& info, std::vector<uint16_t> pixels)
-      : stride_(size_t(info.size.width) * info.channels),
-        channels_(info.channels),
-        pixels_(std::move(pixels)),
-        room_(pixels_.size() * sizeof(uint16_t)) {}
+        room_(pixels_.size() * sizeof(T)) {}
   void read(const Rect& r, float* out) const override {
     const size_t row = size_t(r.width) * channels_;
     for (int y = 0; y < r.height; y++) {
-      const uint16_t* in = &pixels_[size_t(r.y + y) * stride_ + size_t(r.x) * channels_];
-      for (size_t i = 0; i < row; i++) out[y * row + i] = imath_half_to_float(in[i]);
+      const T* in = &pixels_[size_t(r.y + y) * stride_ + size_t(r.x) * channels_];
+      out = std::transform(in, in + row, out, Convert());
     }
   }
+  const float* in_memory() const override {
+    if constexpr (std::is_same_v<T, float>) return pixels_.data();
+    return nullptr;
+  }
+  uint64_t held_bytes() const override { return pixels_.size() * sizeof(T); }
 
  private:
   size_t stride_;
   int channels_;
-  std::vector<uint16_t> pixels_;
+  std::vector<T> pixels_;
   PixelRoom room_;
+};
+
+struct FromHalf {
+  float operator()(uint16_t bits) const { return imath_half_to_float(bits); }
+};
+struct FromInteger {
+  template <typename T>
+  float operator()(T v) const {
+    constexpr float largest = std::numeric_limits<T>::max();
+    return float(v) / largest;
+  }
 };
 
 size_t value_count(const ImageInfo& info) {
@@ -118,7 +117,7 @@ ImagePtr Image::from_floats(ImageInfo info, std::vector<float> pixels) {
   info.check();
   if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
   const Digest digest = pixel_digest(info, pixels);
-  auto source = std::make_shared<FloatPixels>(info, std::move(pixels));
+  auto source = std::make_shared<HeldPixels<float, std::identity>>(info, std::move(pixels));
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }
 
@@ -126,9 +125,27 @@ ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
   info.check();
   if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
   const Digest digest = pixel_digest(info, pixels);
-  auto source = std::make_shared<HalfPixels>(info, std::move(pixels));
+  auto source = std::make_shared<HeldPixels<uint16_t, FromHalf>>(info, std::move(pixels));
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }
+
+template <typename T>
+ImagePtr Image::from_integers(ImageInfo info, std::vector<T> pixels) {
+  info.check();
+  if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
+  const auto source = std::make_shared<HeldPixels<T, FromInteger>>(info, std::move(pixels));
+  Hasher h;
+  h.add("image");
+  info.add_to(h);
+  std::vector<float> row(size_t(info.size.width) * info.channels);
+  for (int y = 0; y < info.size.height; y++) {
+    source->read({0, y, info.size.width, 1}, row.data());
+    h.bytes(row.data(), row.size() * sizeof(float));
+  }
+  return ImagePtr(new Image(std::move(info), h.digest(), source));
+}
+template ImagePtr Image::from_integers(ImageInfo info, std::vector<uint8_t> pixels);
+template ImagePtr Image::from_integers(ImageInfo info, std::vector<uint16_t> pixels);
 
 namespace {
 
@@ -287,6 +304,10 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
     image.read(r, buffer.data());
     visit(r, buffer.data());
   }
+}
+
+ImagePtr held(const ImagePtr& image, const Task& task) {
+  return image->source()->held_bytes() > 0 ? image : materialized(image, task);
 }
 
 ImagePtr materialized(const ImagePtr& image, const Task& task) {

@@ -71,6 +71,8 @@ class PixelSource {
   virtual void read(const Rect& region, float* out) const = 0;
   /// All pixels if they are in memory as floats; else null.
   virtual const float* in_memory() const { return nullptr; }
+  /// The bytes of pixels that it holds in memory, in whatever form; 0: it reads or computes them.
+  virtual uint64_t held_bytes() const { return 0; }
 };
 
 class Image;
@@ -129,6 +131,10 @@ class Image {
   static ImagePtr from_floats(ImageInfo info, std::vector<float> pixels);
   /// The same for IEEE half floats, as bit patterns.
   static ImagePtr from_halfs(ImageInfo info, std::vector<uint16_t> pixels);
+  /// The same for values k / 255 of uint8_t, or k / 65535 of uint16_t, which stay integers in memory. The digest is
+  /// that of from_floats.
+  template <typename T>
+  static ImagePtr from_integers(ImageInfo info, std::vector<T> pixels);
   /// An image computed from others on demand, see core/image/computed_pixels.h. `recipe` must cover everything that the
   /// pixels depend on: it replaces their content in the digest.
   static ImagePtr computed(ImageInfo info, const Digest& recipe, Operation operation);
@@ -180,8 +186,12 @@ std::vector<Rect> padded_parts(Size size, const Rect& region, Outside outside);
 /// holding the image. `visit(region, pixels)`; strips hold about a million floats.
 void for_each_strip(const Image& image, const std::function<void(const Rect&, const float*)>& visit);
 
-/// An image whose pixels lie in memory: `image` itself if they do already, else a copy that has been pulled, in
-/// parallel. Tells `task` how far it is.
+/// An image whose pixels lie in memory in some form, so that reading a few of them is quick: `image` itself if they do
+/// already, else as floats.
+ImagePtr held(const ImagePtr& image, const Task& task = CurrentTask::task());
+
+/// An image whose pixels lie in memory as floats: `image` itself if they do already, else a copy that has been pulled,
+/// in parallel. Tells `task` how far it is.
 ImagePtr materialized(const ImagePtr& image, const Task& task = CurrentTask::task());
 
 }  // namespace terrazzo

@@ -84,14 +84,6 @@ std::vector<T> placed(const OpenFile& file, std::vector<T> stored) {
   return out;
 }
 
-template <typename T>
-std::vector<float> as_fractions(const std::vector<T>& values) {
-  constexpr float largest = std::numeric_limits<T>::max();
-  std::vector<float> out(values.size());
-  for (size_t i = 0; i < values.size(); i++) out[i] = float(values[i]) / largest;
-  return out;
-}
-
 using Warn = std::function<void(const std::string&)>;
 
 StoredMeaning meaning_of(const OpenFile& file, const ImageInfo& info) {
@@ -274,9 +266,9 @@ ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& give
   const PixelRoom meanwhile(bytes);
   const bool is_normal = info.semantic == Semantic::normal;
   if (info.depth == Depth::u8)
-    return Image::from_floats(info, as_fractions(read_meant<uint8_t>(path, file, info, Depth::u8, warn)));
+    return Image::from_integers(info, read_meant<uint8_t>(path, file, info, Depth::u8, warn));
   if (info.depth == Depth::u16)
-    return Image::from_floats(info, as_fractions(read_meant<uint16_t>(path, file, info, Depth::u16, warn)));
+    return Image::from_integers(info, read_meant<uint16_t>(path, file, info, Depth::u16, warn));
   if (info.depth == Depth::f16 && !is_normal)
     return Image::from_halfs(info, read_meant<uint16_t>(path, file, info, Depth::f16, warn));
   std::vector<float> floats = read_meant<float>(path, file, info, Depth::f32, warn);

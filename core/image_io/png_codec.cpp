@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include <png.h>
+#include <zlib.h>
 
 #include "core/base/error.h"
 #include "core/file/file_io.h"
@@ -155,9 +156,10 @@ class PngEncoder final : public ImageEncoder {
     png_set_IHDR(png_, info_, png_uint_32(image_.size.width), png_uint_32(image_.size.height),
                  image_.options.depth == Depth::u16 ? 16 : 8, types[size_t(image_.channels - 1)], PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    // For photographs level 1 takes half the time of level 6 and gives files of the same size.
+    // What the Paeth filter leaves of textures has no repeats worth a search, only runs: quicker, and smaller files.
     png_set_compression_level(png_, 1);
-    png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_compression_strategy(png_, Z_RLE);
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
     if (image_.color_space == "srgb_texture") png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_ABSOLUTE);
     if (image_.color_space == "lin_rec709") png_set_gAMA(png_, info_, 1.0);
     if (!image_.options.description.empty()) {

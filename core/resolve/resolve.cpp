@@ -24,7 +24,7 @@ namespace {
 /// The map in the space in which pixels are averaged.
 std::vector<float> linear_pixels(const Image& map) {
   const ImageInfo& info = map.info();
-  std::vector<float> pixels(map.in_memory(), map.in_memory() + info.size.area() * info.channels);
+  std::vector<float> pixels = map.pixels();
   tbb::parallel_for(0, info.size.height, [&](int y) {
     to_linear(info, &pixels[size_t(y) * info.size.width * info.channels], info.size.width);
   });
@@ -35,7 +35,10 @@ std::vector<float> linear_pixels(const Image& map) {
 class ResolvedPixels : public PixelSource {
  public:
   ResolvedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout)
-      : map_(materialized(map)), layout_(std::move(layout)), same_(map->size() == layout_->exemplar()) {
+      : map_(held(map)),
+        layout_(std::move(layout)),
+        same_(map->size() == layout_->exemplar()),
+        to_the_pixel_(same_ && layout_->reach() == 0 && layout_->exemplar() == layout_->uv().exemplar()) {
     if (layout_->reach() == 0) return;
     const UvMap& uv = layout_->uv();
     detail_radius_ = layout_->radius() * layout_->exemplar().width / uv.exemplar().width;
@@ -45,6 +48,7 @@ class ResolvedPixels : public PixelSource {
   }
 
   void read(const Rect& region, float* out) const override {
+    if (to_the_pixel_) return read_to_the_pixel(region, out);
     const LayoutWindow window(*layout_, region);
     std::vector<int> owners(size_t(region.width));
     for (int x = 0; x < region.width; x++) owners[x] = layout_->owner_x(region.x + x);
@@ -70,28 +74,48 @@ class ResolvedPixels : public PixelSource {
   static constexpr int largest_reach = int(largest_blend + 0.5);
   static constexpr int largest_window = (2 * largest_reach + 1) * (2 * largest_reach + 1);
 
-  /// The index of the map's pixel for a place of the exemplar.
-  size_t position(int x, int y) const {
-    const Size size = map_->size(), exemplar = layout_->exemplar();
-    if (!same_) {
-      x = int(int64_t{x} * size.width / exemplar.width);
-      y = int(int64_t{y} * size.height / exemplar.height);
+  /// Each pixel of the uv map names one of the map: runs of a row that are a run there are read at once.
+  void read_to_the_pixel(const Rect& region, float* out) const {
+    const UvMap& uv = layout_->uv();
+    for (int y = region.y; y < region.bottom(); y++) {
+      const ExemplarPixel* shown = &uv.pixels()[size_t(y) * uv.size().width + region.x];
+      for (int x = 0, count = 1; x < region.width; x += count, count = 1) {
+        const ExemplarPixel& first = shown[x];
+        while (x + count < region.width && shown[x + count].y == first.y && shown[x + count].x == first.x + count)
+          count++;
+        map_->read({first.x, first.y, count, 1}, out);
+        out += size_t(count) * map_->channels();
+      }
     }
-    return (size_t(y) * size.width + size_t(x)) * map_->channels();
+  }
+
+  /// The map's pixel for a place of the exemplar.
+  Offset place(int x, int y) const {
+    const Size size = map_->size(), exemplar = layout_->exemplar();
+    if (same_) return {x, y};
+    return {int(int64_t{x} * size.width / exemplar.width), int(int64_t{y} * size.height / exemplar.height)};
+  }
+
+  /// The index of that pixel.
+  size_t position(int x, int y) const {
+    const Offset at = place(x, y);
+    return (size_t(at.y) * map_->width() + size_t(at.x)) * map_->channels();
   }
 
   float* copy(int x, int y, int count, const Offset& offset, float* out) const {
-    const float* pixels = map_->in_memory();
     const int channels = map_->channels();
     int u = x + offset.x, v = y + offset.y;
     layout_->settle(u, v);
-    if (same_ && u == x + offset.x && u + count <= map_->width())
-      return std::copy_n(pixels + position(u, v), size_t(count) * channels, out);
-    for (int i = 0; i < count; i++) {
+    if (same_ && u == x + offset.x && u + count <= map_->width()) {
+      map_->read({u, v, count, 1}, out);
+      return out + size_t(count) * channels;
+    }
+    for (int i = 0; i < count; i++, out += channels) {
       u = x + i + offset.x;
       v = y + offset.y;
       layout_->settle(u, v);
-      out = std::copy_n(pixels + position(u, v), channels, out);
+      const Offset at = place(u, v);
+      map_->read({at.x, at.y, 1, 1}, out);
     }
     return out;
   }
@@ -177,6 +201,7 @@ class ResolvedPixels : public PixelSource {
   ImagePtr map_;
   std::shared_ptr<const FineLayout> layout_;
   bool same_;                  ///< the map has the exemplar's size
+  bool to_the_pixel_;          ///< and so has the analysed exemplar, and nothing is blended
   double detail_radius_ = 0;   ///< in pixels of the exemplar
   std::vector<float> linear_;  ///< the map in the space of linear_pixels
   std::vector<float> smooth_;  ///< its local mean

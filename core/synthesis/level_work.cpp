@@ -36,6 +36,12 @@ std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* 
   return {level.usable.begin(), level.usable.end()};
 }
 
+/// As how many steps one of the phase counts in progress.
+int counts_of(Phase phase) {
+  constexpr int correction = 3;
+  return phase == Phase::pass ? correction : 1;
+}
+
 std::vector<ExemplarPixel> unpacked(const SimilarSets& sets, Size size) {
   std::vector<ExemplarPixel> out(sets.positions.size());
   for (size_t i = 0; i < out.size(); i++)
@@ -66,7 +72,7 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
         std::ranges::count_if(synthesis_steps(), [&](const Step& s) { return s.phase == phase && s.applies(facts_); }));
   };
   first_steps_ = count(facts_.coarsest() ? Phase::coarsest : Phase::upsampling);
-  steps_ = first_steps_ + effort_.passes * (count(Phase::before_pass) + count(Phase::pass));
+  steps_ = first_steps_ + effort_.passes * (count(Phase::before_pass) + counts_of(Phase::pass) * count(Phase::pass));
 }
 
 Field LevelWork::beginning() {
@@ -113,13 +119,16 @@ void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wan
 }
 
 void LevelWork::run(Phase phase, StepContext& c) {
-  run_steps(phase, c, [&] {
-    done_++;
-    // Every finer level has four times as many pixels; all coarser ones together, a third of them.
-    const double coarser = facts_.coarsest() ? 0 : 1.0 / 3, part = std::min(1.0, double(done_) / std::max(1, steps_));
-    const double here = (coarser + part) / (coarser + 1);
-    shared_.task.progress(std::ldexp(here, -2 * (facts_.level - shared_.finest)));
-  });
+  const int counts = counts_of(phase);
+  c.progress = [this, counts](double part) { report(done_ + counts * part); };
+  run_steps(phase, c, [&] { report(done_ += counts); });
+}
+
+void LevelWork::report(double steps) const {
+  // Every finer level has four times as many pixels; all coarser ones together, a third of them.
+  const double coarser = facts_.coarsest() ? 0 : 1.0 / 3, part = std::min(1.0, steps / std::max(1, steps_));
+  const double here = (coarser + part) / (coarser + 1);
+  shared_.task.progress(std::ldexp(here, -2 * (facts_.level - shared_.finest)));
 }
 
 void LevelWork::find_candidates(std::initializer_list<Phase> phases) {

@@ -34,6 +34,8 @@ class LevelWork {
  private:
   /// Runs the steps of a phase, and reports how far that is.
   void run(Phase phase, StepContext& c);
+  /// Reports progress after so many of the level's steps.
+  void report(double steps) const;
   void find_candidates(std::initializer_list<Phase> phases);
   StepContext context(const CorrectionLevel& level, Field& field);
   CorrectionLevel correction_level(const PlaneWindow& window, const FixedPixels& fixed) const;
@@ -46,7 +48,7 @@ class LevelWork {
   FixedPixels fixed_;
   std::unique_ptr<const LevelControl> control_;
   UsagePenalty usage_;
-  int steps_ = 0;        // that run on this level, each as often as it does
+  int steps_ = 0;        // that run on this level, each as often as it does; corrections count several times
   int first_steps_ = 0;  // of them, before the corrections
   int done_ = 0;
   std::vector<ExemplarPixel> candidates_;  // k-coherent, of every exemplar pixel; once a step needs them

@@ -75,7 +75,9 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       lattice(repeats.lattice),
       gaps(options.kept.gaps(options.size)),
       origin(lattice_start(index, options)),
-      controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task) {}
+      controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task),
+      whole_elements(options.whole_bricks && has_elements(*index.appearance())),
+      elements_by_lattice(whole_elements && keeps_to_lattice(lattice, *index.appearance()->elements())) {}
 
 Plane SharedWork::plane(int level) const {
   return {level_size(options.size, level), options.tile_x, options.tile_y};
@@ -100,9 +102,6 @@ const Lattice* SharedWork::element_lattice() const {
 }
 
 LevelFacts SharedWork::facts(int level) const {
-  const Appearance& appearance = *index.appearance();
-  const bool elements = options.whole_bricks && has_elements(appearance);
-  const bool laid = elements && !keeps_to_lattice(lattice, *appearance.elements());
   return {.level = level,
           .levels = levels,
           .quality = options.quality,
@@ -111,9 +110,9 @@ LevelFacts SharedWork::facts(int level) const {
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && repeats.parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),
-          .has_elements = laid,
+          .has_elements = whole_elements && !elements_by_lattice,
           .elements_on_lattice = lattice.rank == 2 && element_lattice() != nullptr,
-          .small_elements = elements && !laid && element_lattice() && lattice.rank == 2};
+          .small_elements = elements_by_lattice && element_lattice() && lattice.rank == 2};
 }
 
 }  // namespace terrazzo

@@ -214,7 +214,8 @@ void lay_whole_bricks(StepContext& c) {
 }
 
 void lay_whole_elements(StepContext& c) {
-  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.shared.task);
+  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.shared.task,
+               c.progress);
 }
 
 void complete(StepContext& c) {
@@ -239,7 +240,7 @@ SeamMoves seams_to_joints(const StepContext& c) {
 }
 
 void move_to_joints(StepContext& c) {
-  move_seams(c.field, c.level, c.seams ? *c.seams : seams_to_joints(c), c.shared.task);
+  move_seams(c.field, c.level, c.seams ? *c.seams : seams_to_joints(c), c.shared.task, c.progress);
 }
 
 void repair(StepContext& c) {
@@ -265,7 +266,7 @@ void correct_pixels(StepContext& c) {
                       .seed = c.bits(Purpose::correction),
                       .pass = c.pass,
                       .wanted = grown(c.wanted, reach_of(c.effort.passes - 1 - c.pass))};
-  correct(c.field, c.level, pass, c.usage, c.shared.task);
+  correct(c.field, c.level, pass, c.usage, c.shared.task, c.progress);
 }
 
 StepWatcher watcher;  // see watch_steps()

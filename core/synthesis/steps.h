@@ -113,7 +113,9 @@ struct SharedWork {
   LatticeGaps gaps;  ///< between kept pixels
   Vector2d origin;   ///< where the lattice starts in the result
   ControlPyramid controls;
-  int finest = 0;  ///< the level that ends the work
+  bool whole_elements;       ///< are asked for, and the exemplar has enough of them
+  bool elements_by_lattice;  ///< and they are better laid by their lattice
+  int finest = 0;            ///< the level that ends the work
 };
 
 /// What a step works on. Borrows everything; used by one thread.
@@ -130,6 +132,7 @@ struct StepContext {
   Rect wanted{};                            ///< the columns and rows that have to be right in the end
   std::optional<SeamMoves> seams{};         ///< how seams move on this level, if a step before has decided it
   std::vector<uint32_t> piece_coherence{};  ///< for this pass, see CorrectionPass
+  std::function<void(double)> progress{};   ///< takes, from any thread, which fraction of the running step is done
 
   uint64_t bits(uint64_t purpose) const;
 };

@@ -77,7 +77,7 @@ void compute_synthesize(NodeContext& node) {
                                    part.region, node.task());
   tell_of_parts(node, *index, *uv, part.is_whole());
   warn_of_less_surface(node, *index, part.surface);
-  tell_of_elements(node, *index, *uv);
+  if (options.quality != Quality::draft) tell_of_elements(node, *index, *uv);  // a draft lays none
   node.output("uv", uv);
 }
 

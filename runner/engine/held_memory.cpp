@@ -18,8 +18,7 @@ namespace {
 /// The memory blocks of a value, and whether it reads from others when pulled.
 class Parts {
  public:
-  /// `half_bytes`: bytes per value of images in half floats, which have no float memory.
-  Parts(const Value& value, uint64_t half_bytes) : half_bytes_(half_bytes) {
+  explicit Parts(const Value& value) {
     std::visit([&](const auto& v) { add(*v); }, value);
   }
   const std::vector<std::pair<const void*, uint64_t>>& all() const { return all_; }
@@ -27,13 +26,11 @@ class Parts {
 
  private:
   void add(const Image& image) {
-    const uint64_t values = static_cast<uint64_t>(image.size().area()) * static_cast<uint64_t>(image.channels());
-    if (const float* pixels = image.in_memory()) {
-      all_.emplace_back(pixels, values * sizeof(float));
-      return;
-    }
-    lazy_ = true;
-    if (image.info().depth == Depth::f16) all_.emplace_back(&image, values * half_bytes_);
+    // Images that differ only in their description share their pixels.
+    if (const uint64_t bytes = image.source()->held_bytes())
+      all_.emplace_back(image.source().get(), bytes);
+    else
+      lazy_ = true;
   }
   void add(const Material& material) {
     for (const Map& m : material.maps()) add(*m.image);
@@ -60,7 +57,6 @@ class Parts {
     for (const Report::Picture& p : report.pictures()) add(*p.image);
   }
 
-  const uint64_t half_bytes_;
   std::vector<std::pair<const void*, uint64_t>> all_;
   bool lazy_ = false;
 };
@@ -77,14 +73,14 @@ int HeldMemory::new_record() {
   return record;
 }
 
-std::pair<int, bool> HeldMemory::add(int stage, const std::map<std::string, Value>& values, uint64_t half_bytes) {
+std::pair<int, bool> HeldMemory::add(int stage, const std::map<std::string, Value>& values) {
   release(stage);
   const int id = current_[stage] = new_record();
   Record& record = records_[id];
   record.holders = 1;
   bool lazy = false;
   for (const auto& [port, value] : values) {
-    const Parts parts(value, half_bytes);
+    const Parts parts(value);
     lazy = lazy || parts.lazy();
     for (const auto& [where, bytes] : parts.all()) {
       Part& part = parts_[where];
@@ -97,12 +93,11 @@ std::pair<int, bool> HeldMemory::add(int stage, const std::map<std::string, Valu
 }
 
 void HeldMemory::hold_loaded(int stage, const std::map<std::string, Value>& values) {
-  add(stage, values, 0);
+  add(stage, values);
 }
 
 void HeldMemory::hold_computed(int stage, const std::map<std::string, Value>& values, const std::vector<int>& inputs) {
-  // Half floats from files stay in memory as read; half-float images derived from others are computed.
-  const auto [id, lazy] = add(stage, values, inputs.empty() ? sizeof(uint16_t) : 0);
+  const auto [id, lazy] = add(stage, values);
   if (!lazy) return;
   for (const int input : inputs)
     if (current_[input] != none) {

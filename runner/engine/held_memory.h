@@ -43,7 +43,7 @@ class HeldMemory {
 
   int new_record();
   /// Returns the stage's new record and whether any of the values is lazy.
-  std::pair<int, bool> add(int stage, const std::map<std::string, Value>& values, uint64_t half_bytes);
+  std::pair<int, bool> add(int stage, const std::map<std::string, Value>& values);
   void drop(int record);
 
   std::vector<int> current_;  ///< the record of each stage that holds values

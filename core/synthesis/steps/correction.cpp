@@ -1,5 +1,7 @@
 #include "core/synthesis/steps/correction.h"
 
+#include <atomic>
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -26,6 +28,7 @@ const Tunable<CorrectionTuning> correction_tuning(
 // the time only, not the result.
 constexpr int tile_columns = 32;
 constexpr int tile_rows = 4;
+constexpr int tiles_told = 512;  // that progress is told after: some milliseconds
 
 void require_room(const CorrectionPass& pass) {
   if (pass.window->size() > size_t(most_window_pixels) || pass.random_candidates > most_random_candidates)
@@ -37,7 +40,7 @@ void require_room(const CorrectionPass& pass) {
 }  // namespace
 
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
-             const Task& task) {
+             const Task& task, const std::function<void(double)>& progress) {
   require_room(pass);
   const CorrectionInputs inputs{field, level, pass, usage, uint32_t(correction_tuning->repeat_penalty * unit_factor)};
   std::vector<ExemplarPixel> next;
@@ -50,8 +53,12 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
     next.resize(size_t(part.columns) * part.rows);
     const int tiles_down = (part.rows + tile_rows - 1) / tile_rows;
     const int tiles_across = (part.columns + tile_columns - 1) / tile_columns;
-    tbb::parallel_for(0, tiles_across * tiles_down, [&](int i) {
+    const int tiles = tiles_across * tiles_down;
+    std::atomic<int> done{0};
+    tbb::parallel_for(0, tiles, [&](int i) {
       task.check();
+      if (const int before = done++; progress && before % tiles_told == 0)
+        progress((sub + double(before) / tiles) / sub_passes);
       const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
       correct_tile(inputs, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
     });

@@ -147,7 +147,6 @@ void ElementPacking::measure_clear() {
 void ElementPacking::take_away_covered(const Task& task) {
   for (int round = 0; round < pack_tuning->rounds; round++) {
     task.check();
-    paint_all();
     measure_clear();
     std::vector<size_t> covered;
     for (size_t i = 0; i < placed_.size(); i++)
@@ -166,8 +165,8 @@ void ElementPacking::take_away_covered(const Task& task) {
     for (size_t i = 0; i < placed_.size(); i++)
       if (!goes[i]) left.push_back(placed_[i]);
     placed_ = std::move(left);
+    paint_all();
   }
-  paint_all();
 }
 
 double ElementPacking::tolerance() const {
@@ -339,6 +338,7 @@ void ElementPacking::settle(const Task& task) {
   for (int round = 0; round < pack_tuning->settling; round++) {
     task.check();
     std::vector<PlacedElement> moved = placed_;
+    bool any = false;
     for (size_t i = 0; i < placed_.size(); i++) {
       if (placed_[i].stays) continue;
       const ElementShape& shape = shapes_[placed_[i].element];
@@ -357,7 +357,9 @@ void ElementPacking::settle(const Task& task) {
       if (best < least) continue;
       moved[i].shift_x -= (x + (x > 0 ? 1 : 0)) / 2 * shapes_.block;
       moved[i].shift_y -= (y + (y > 0 ? 1 : 0)) / 2 * shapes_.block;
+      any = any || moved[i].shift_x != placed_[i].shift_x || moved[i].shift_y != placed_[i].shift_y;
     }
+    if (!any) return;
     placed_ = std::move(moved);
     paint_all();
   }
@@ -379,9 +381,12 @@ int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
   return filled;
 }
 
-void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
+void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task,
+                          const std::function<void(double)>& progress) {
   placed_ = std::move(placed);
+  paint_all();
   for (int round = 0; round < pack_tuning->rounds; round++) {
+    progress(double(round) / pack_tuning->rounds);
     take_away_covered(task);
     // What is left is filled with what disturbs least.
     const double part = std::max(0.0, 1 - round / 3.0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -32,13 +33,18 @@ class ElementPacking {
   /// there, until there is no hole left that one fits. Whole-element placement, as Hurtut et al., Appearance-guided
   /// synthesis of element arrangements by example (2009), with depth fields in place of their distances. Throws
   /// Cancelled.
-  void pack(std::vector<PlacedElement> placed, const Task& task);
+  void pack(
+      std::vector<PlacedElement> placed, const Task& task, const std::function<void(double)>& progress = [](double) {});
 
   /// A depth in 32nds of a block, up to 1024 blocks: surfaces have many of them.
   class Depth {
    public:
     Depth() = default;
-    explicit Depth(float blocks) : units_(int16_t(std::floor(std::clamp(blocks, -1023.0f, 1023.0f) * 32 + 0.5f))) {}
+    explicit Depth(float blocks) {
+      const float units = std::clamp(blocks, -1023.0f, 1023.0f) * 32 + 0.5f;
+      const int cut = int(units);  // std::floor is a call on baseline x86-64
+      units_ = int16_t(float(cut) > units ? cut - 1 : cut);
+    }
     float blocks() const { return float(units_) / 32; }
 
    private:

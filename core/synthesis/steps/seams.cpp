@@ -108,7 +108,8 @@ std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPix
   return out;
 }
 
-void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
+void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task,
+           const std::function<void(double)>& progress) {
   const Pieces pieces(field, moves.block, level.window.closed_x, level.window.closed_y);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
@@ -122,18 +123,26 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   ground.pressure.resize(field.pixels.size());
   for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];
   tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves); });
-  for (const std::vector<int>& round : rounds.all())
+  size_t done = 0;
+  for (const std::vector<int>& round : rounds.all()) {
+    progress(double(done++) / double(rounds.all().size()));
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();
       const int piece = round[size_t(i)];
       movers.local().spread(pieces.members(piece), pressure[size_t(piece)]);
     });
+  }
 }
 
 }  // namespace
 
-void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
-  for (int i = 0; i < seams_tuning->sweeps; i++) sweep(field, level, moves, task);
+void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task,
+                const std::function<void(double)>& progress) {
+  const int sweeps = seams_tuning->sweeps;
+  for (int i = 0; i < sweeps; i++)
+    sweep(field, level, moves, task, [&](double part) {
+      if (progress) progress((i + part) / sweeps);
+    });
 }
 
 }  // namespace terrazzo

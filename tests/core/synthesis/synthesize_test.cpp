@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <mutex>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -32,6 +34,20 @@ double coherent_share(const UvMap& uv) {
 }
 
 }  // namespace
+
+TEST_CASE("progress goes on while the finest level is corrected, most of the time") {
+  std::mutex mutex;
+  std::set<double> told{0.0, 1.0};
+  const Task task(nullptr, [&](double fraction) {
+    const std::lock_guard lock(mutex);
+    told.insert(fraction);
+  });
+  synthesize(index(), {.size = {600, 600}}, task);
+  double longest = 0;
+  for (auto at = told.begin(); std::next(at) != told.end(); ++at) longest = std::max(longest, *std::next(at) - *at);
+  CHECK(longest < 0.25);
+  CHECK(*told.rbegin() == 1);
+}
 
 TEST_CASE("the same seed gives the same uv map on any number of threads, another seed another") {
   const SynthesisOptions options{.size = {60, 44}, .seed = 7};

@@ -53,6 +53,9 @@ TEST_CASE("values take what their pixels, vectors and positions take") {
   CHECK(held.bytes() == 480 + 40 + 120);
   held.hold_computed(3, {{"out", recipe(1)}}, {});
   CHECK(held.bytes() == 480 + 40 + 120);
+  held.hold_computed(6, {{"out", Image::from_integers({.size = {5, 3}, .channels = 2}, std::vector<uint8_t>(30))}}, {});
+  CHECK(held.bytes() == 480 + 40 + 120 + 30);
+  held.release(6);
   AppearanceLevel level{.size = {4, 4}, .vectors = std::vector<AppearanceVector>(16), .mean = {}, .basis = {}};
   level.usable.assign(16, 1);
   const AppearancePtr looks = Appearance::make({level}, 3, false);
@@ -68,9 +71,8 @@ TEST_CASE("values take what their pixels, vectors and positions take") {
 
 TEST_CASE("images from the cache are read from there, and take no memory") {
   Held held(2);
-  std::vector<uint16_t> halfs(20);
   held.hold_computed(0, {{"out", floats({10, 10}, 1)}}, {});
-  held.hold_loaded(1, {{"out", Image::from_halfs({.size = {5, 4}, .depth = Depth::f16}, halfs)}});
+  held.hold_loaded(1, {{"out", recipe(1)}});
   CHECK(held.bytes() == 400);
   held.hold_loaded(1, {{"out", UvMap::make({6, 5}, {9, 9}, std::vector<ExemplarPixel>(30))}});
   CHECK(held.bytes() == 520);
