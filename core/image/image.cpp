@@ -137,10 +137,11 @@ ImagePtr Image::from_integers(ImageInfo info, std::vector<T> pixels) {
   Hasher h;
   h.add("image");
   info.add_to(h);
+  h.add(int64_t(value_count(info) * sizeof(float)));
   std::vector<float> row(size_t(info.size.width) * info.channels);
   for (int y = 0; y < info.size.height; y++) {
     source->read({0, y, info.size.width, 1}, row.data());
-    h.bytes(row.data(), row.size() * sizeof(float));
+    h.stream(row.data(), row.size() * sizeof(float));
   }
   return ImagePtr(new Image(std::move(info), h.digest(), source));
 }
