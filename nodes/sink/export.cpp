@@ -195,7 +195,7 @@ std::vector<Param> export_params() {
 NodeType export_node() {
   NodeType t;
   t.name = "export";
-  t.version = 5;
+  t.version = 6;
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =

@@ -338,7 +338,6 @@ void ElementPacking::settle(const Task& task) {
   for (int round = 0; round < pack_tuning->settling; round++) {
     task.check();
     std::vector<PlacedElement> moved = placed_;
-    bool any = false;
     for (size_t i = 0; i < placed_.size(); i++) {
       if (placed_[i].stays) continue;
       const ElementShape& shape = shapes_[placed_[i].element];
@@ -357,9 +356,8 @@ void ElementPacking::settle(const Task& task) {
       if (best < least) continue;
       moved[i].shift_x -= (x + (x > 0 ? 1 : 0)) / 2 * shapes_.block;
       moved[i].shift_y -= (y + (y > 0 ? 1 : 0)) / 2 * shapes_.block;
-      any = any || moved[i].shift_x != placed_[i].shift_x || moved[i].shift_y != placed_[i].shift_y;
     }
-    if (!any) return;
+    if (moved == placed_) return;
     placed_ = std::move(moved);
     paint_all();
   }
@@ -396,8 +394,7 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task,
     settle(task);
   }
   take_away_covered(task);
-  // Courses are squeezed along them.
-  fill_holes({phase_ ? -1 : pack_tuning->last_gain, pack_tuning->least_overlap}, task);
+  fill_holes({phase_ ? -1 : pack_tuning->last_gain, pack_tuning->least_overlap}, task);  // courses: squeezed along them
 }
 
 }  // namespace terrazzo

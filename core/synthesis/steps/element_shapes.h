@@ -50,6 +50,7 @@ struct PlacedElement {
   int shift_x = 0, shift_y = 0;
   double clear = 1;    ///< the share of it that lies on no other
   bool stays = false;  ///< part of it is kept: it is not taken away
+  bool operator==(const PlacedElement&) const = default;
 };
 
 struct ElementShapes {
