@@ -1,7 +1,6 @@
 #include "core/file/write_guard.h"
 
 #include <cerrno>
-#include <ranges>
 #include <vector>
 
 #include <fcntl.h>
@@ -43,7 +42,7 @@ fs::path WriteGuard::hold(const fs::path& folder) {
   std::error_code unknown;
   fs::path place = fs::read_symlink(path_of(held), unknown);
   if (unknown) throw Error(fmt::format("cannot tell where {} is: {}", folder.string(), unknown.message()));
-  for (const fs::path& part : std::views::reverse(missing)) place /= part;
+  for (size_t i = missing.size(); i > 0; i--) place /= missing[i - 1];
   check_(place);
   for (; !missing.empty(); missing.pop_back()) {
     const fs::path& part = missing.back();

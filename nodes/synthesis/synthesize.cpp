@@ -52,9 +52,10 @@ void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
   const ShownElements shown = shown_elements(uv, *elements, node.task());
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
   if (shown.are_broken())
-    node.warn(counts +
-              ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "
-              "An exemplar that shows more of them, or none that its border cuts, helps");
+    node.warn(
+        counts +
+        ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "
+        "An exemplar that shows more of them, or none that its border cuts, helps");
   else if (shown.lack_most())
     node.warn(
         fmt::format("{}, but {:.0f} % of the exemplar does not appear: elements that its border cuts are not "

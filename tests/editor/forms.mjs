@@ -62,6 +62,7 @@ scenario('a value typed while it changes elsewhere', async () => {
   await page.getByText('changed here, and elsewhere').waitFor();
   await area.press('Control+s');
   await e.saved(({nodes}) => nodes.stones.seed === 4 && nodes.stones.kind === 'bricks', 'both changes of the text are kept');
+  await page.waitForFunction((a) => a.value.includes('"seed": 4'), await area.elementHandle());
   await area.fill((await area.inputValue()).replace('"seed": 4', '"seed": 9'));
   write(e, ({nodes}) => { nodes.stones.seed = 5; });
   await page.getByText('changed here, and elsewhere').waitFor();

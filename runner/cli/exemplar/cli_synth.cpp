@@ -174,7 +174,12 @@ int make(const SynthFlags& flags) {
 std::vector<std::string> materials_to_make(const ExemplarFlags& exemplar) {
   std::error_code failure;
   if (!exemplar.name.empty() || !std::filesystem::is_directory(exemplar.folder, failure)) return {};
-  std::vector<std::string> names = several_materials(exemplar.folder);
+  std::vector<std::string> names;
+  try {
+    names = several_materials(exemplar.folder);
+  } catch (const Error&) {
+    return {};  // what makes it says why
+  }
   if (std::erase(names, "") > 0)
     print_message(
         "warning: {} has maps whose names name no material; they are left out: --name '*' takes all files "

@@ -33,8 +33,8 @@ struct ExemplarFindings {
 /// Whether a graph has a parameter for an exemplar's folder, or for a single picture, and declares no inputs.
 bool takes_an_exemplar(std::string_view graph, bool is_picture);
 
-/// Adapts a stock graph to this exemplar: sets its folder or picture, weights, and whether to search for a lattice. Adds comments
-/// on the findings, the choices with their reasons, and parameters worth changing.
+/// Adapts a stock graph to this exemplar: sets its folder or picture, weights, and whether to search for a lattice.
+/// Adds comments on the findings, the choices with their reasons, and parameters worth changing.
 std::string starting_graph(const ExemplarFindings& look, std::string_view stock);
 
 }  // namespace terrazzo

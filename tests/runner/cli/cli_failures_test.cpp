@@ -37,7 +37,7 @@ TEST_CASE("synth finds its mistakes before it runs, says which argument is wrong
   };
   const std::vector<Wrong> all = {
       {"mops", "out", "error: FOLDER: there is no folder " + (w.path / "mops").string() + " (did you mean \"maps\"?)"},
-      {"photo.png", "out", "error: FOLDER: expected a folder with the material's maps, found the file"},
+      {"file", "out", "error: FOLDER: cannot read " + (w.path / "file").string()},
       {"nothing", "out", "error: FOLDER: no maps recognised in"},
       {"maps", "file", "error: -o: expected a folder to write to, found the file " + (w.path / "file").string()},
       {"maps", "/proc/x", "error: -o: cannot write into the folder /proc: "},

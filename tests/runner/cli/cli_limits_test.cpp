@@ -28,7 +28,7 @@ bool says(const ProgramRun& run, const std::string& text) {
 
 TEST_CASE("every command that reads images takes limits on them") {
   const Workplace w;
-  const Size size{64, 48};
+  const Size size{160, 128};
   write_picture(w.path / "photo.png", 37, Semantic::base_color, size);
   write_picture(w.path / "maps/base_color.png", 1, Semantic::base_color, size);
   write_picture(w.path / "maps/height.png", 2, Semantic::height, size);

@@ -107,7 +107,7 @@ TEST_CASE("progress counts the stages that the summary of a failed run counts") 
     "torn": {"type": "load_map", "path": "torn.png"},
     "a": {"type": "export", "material": "@torn", "path": "out/a.png"},
     "b": {"type": "export", "material": "@photo", "path": "out/b.png"}}})");
-  write_picture(w.path / "torn.png", 5);
+  write_picture(w.path / "torn.png", 5, Semantic::base_color, {256, 192});
   std::fstream torn(w.path / "torn.png", std::ios::in | std::ios::out | std::ios::binary);
   torn.seekp(int64_t(fs::file_size(w.path / "torn.png")) / 2);
   torn << "not what was here before";
