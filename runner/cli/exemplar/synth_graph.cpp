@@ -7,6 +7,7 @@
 #include "graphs/text/format.h"
 #include "graphs/text/json.h"
 #include "graphs/text/stock_graphs.h"
+#include "nodes/common/registry.h"
 #include "nodes/exchange/export_preset.h"
 
 namespace terrazzo {
@@ -17,6 +18,16 @@ JsonValue object_of(const std::vector<std::pair<std::string, std::string>>& memb
   JsonValue out = JsonValue::empty_object();
   for (const auto& [name, text] : members) out.set(name, JsonValue::of(text));
   return out;
+}
+
+/// The file formats that the node takes; some presets refuse some of them.
+JsonValue preset_formats() {
+  JsonValue list;
+  list.kind = JsonValue::Kind::list;
+  const std::vector<Param>& params = find_node_type("export_preset")->params;
+  for (const std::string& format : std::ranges::find(params, "format", &Param::name)->choices)
+    list.items.push_back(JsonValue::of(format));
+  return list;
 }
 
 }  // namespace
@@ -46,13 +57,7 @@ std::string synth_graph(std::string_view stock, const ExemplarFlags& exemplar, c
     // A picture knows only what it is.
     if (exemplar.is_picture()) files.set("name", JsonValue::of(std::filesystem::path(exemplar.folder).stem().string()));
     nodes.set("files", std::move(files));
-    // The preset's own formats: what it doesn't take, its node refuses.
-    graph.find("parameters")->find("format")->set("choices", [] {
-      JsonValue list;
-      list.kind = JsonValue::Kind::list;
-      for (const char* format : {"png", "tif", "exr", "jpg", "tga", "tx"}) list.items.push_back(JsonValue::of(format));
-      return list;
-    }());
+    graph.find("parameters")->find("format")->set("choices", preset_formats());
   }
   return formatted(graph);
 }
