@@ -1,5 +1,7 @@
 #include "core/numeric/distance_transform.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -19,23 +21,34 @@ void for_each_line(Threads threads, int count, const Visit& visit) {
     for (int i = 0; i < count; i++) visit(i);
 }
 
-/// Distance to the nearest set pixel of the same column, at most `far`.
+/// Distance to the nearest set pixel of the same column, at most `far`. Some columns at a time go down row by row: the
+/// pixels of one column alone lie far apart in memory.
 std::vector<int> column_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, int far, Threads threads) {
+  constexpr int at_once = 64;
   std::vector<int> g(mask.size());
-  for_each_line(threads, size.width, [&](int x) {
-    const auto at = [&](int y) { return size_t(y) * size.width + x; };
+  for_each_line(threads, (size.width + at_once - 1) / at_once, [&](int block) {
+    const int first = block * at_once, columns = std::min(at_once, size.width - first);
     // A second lap carries distances across the border.
     const int laps = wraps ? 2 : 1;
-    int since = far;
-    for (int y = 0; y < laps * size.height; y++) {
-      since = mask[at(y % size.height)] ? 0 : std::min(far, since + 1);
-      g[at(y % size.height)] = since;
-    }
-    since = far;
-    for (int y = laps * size.height - 1; y >= 0; y--) {
-      since = mask[at(y % size.height)] ? 0 : std::min(far, since + 1);
-      g[at(y % size.height)] = std::min(g[at(y % size.height)], since);
-    }
+    std::array<int, at_once> since;
+    since.fill(far);
+    for (int lap = 0; lap < laps; lap++)
+      for (int y = 0; y < size.height; y++) {
+        const size_t row = size_t(y) * size_t(size.width) + size_t(first);
+        for (int x = 0; x < columns; x++) {
+          since[x] = mask[row + x] ? 0 : std::min(far, since[x] + 1);
+          g[row + x] = since[x];
+        }
+      }
+    since.fill(far);
+    for (int lap = 0; lap < laps; lap++)
+      for (int y = size.height - 1; y >= 0; y--) {
+        const size_t row = size_t(y) * size_t(size.width) + size_t(first);
+        for (int x = 0; x < columns; x++) {
+          since[x] = mask[row + x] ? 0 : std::min(far, since[x] + 1);
+          g[row + x] = std::min(g[row + x], since[x]);
+        }
+      }
   });
   return g;
 }
