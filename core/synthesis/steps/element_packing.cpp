@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+
+#include <tbb/parallel_for.h>
 
 #include "core/base/geometry.h"
 #include "core/base/tuning.h"
 #include "core/numeric/distance_transform.h"
+#include "core/synthesis/steps/element_holes.h"
 
 namespace terrazzo {
 
@@ -84,7 +86,11 @@ constexpr float farthest = 1e6f;  // of what is kept, where nothing is
 }  // namespace
 
 ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
-    : shapes_(shapes), size_(size), closed_x_(closed_x), closed_y_(closed_y) {}
+    : shapes_(shapes),
+      size_(size),
+      closed_x_(closed_x),
+      closed_y_(closed_y),
+      tolerance_(pack_tuning->tolerance * shapes.typical_side) {}
 
 void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
   kept_depth_ = signed_distances(blocks, size_, closed_x_ && closed_y_, farthest);
@@ -132,15 +138,15 @@ void ElementPacking::paint_all() {
 }
 
 void ElementPacking::measure_clear() {
-  for (size_t i = 0; i < placed_.size(); i++) {
+  tbb::parallel_for(0, int(placed_.size()), [&](int i) {
     int64_t clear = 0, all = 0;
-    for_blocks(placed_[i], [&](size_t at, float depth) {
+    for_blocks(placed_[size_t(i)], [&](size_t at, float depth) {
       if (depth <= 0) return;
       all++;
-      clear += places_[at].placed == int(i) && places_[at].neighbour.blocks() <= 0;
+      clear += places_[at].placed == i && places_[at].neighbour.blocks() <= 0;
     });
-    placed_[i].clear = all > 0 ? double(clear) / double(all) : 0;
-  }
+    placed_[size_t(i)].clear = all > 0 ? double(clear) / double(all) : 0;
+  });
 }
 
 /// The most covered first, and none of its neighbours along with it: they are seen more once it is gone.
@@ -169,40 +175,13 @@ void ElementPacking::take_away_covered(const Task& task) {
   }
 }
 
-double ElementPacking::tolerance() const {
-  return pack_tuning->tolerance * shapes_.typical_side;
-}
-
-/// Of some rows. Larger surfaces have no room for the distances of all.
-void ElementPacking::add_holes(int top, int bottom, std::vector<Hole>& out) const {
-  const int halo = int(pack_tuning->farthest_filled * shapes_.typical_side) + 1;
-  const int left = closed_x_ ? -halo : 0, right = size_.width + (closed_x_ ? halo : 0);
-  const int above = closed_y_ ? top - halo : std::max(0, top - halo);
-  const int below = closed_y_ ? bottom + halo : std::min(size_.height, bottom + halo);
-  std::vector<uint8_t> filled;
-  filled.reserve(size_t(right - left) * size_t(below - above));
-  for (int y = above; y < below; y++)
-    for (int x = left; x < right; x++) filled.push_back(is_filled(places_[size_t(index(x, y))]));
-  const std::vector<int64_t> distance = squared_distances(filled, {right - left, below - above}, false);
-  const double least = std::max(1.0, pack_tuning->hole * shapes_.typical_side);
-  for (int y = top; y < bottom; y++)
-    for (int x = 0; x < size_.width; x++) {
-      const int64_t d = distance[size_t(y - above) * size_t(right - left) + size_t(x - left)];
-      if (double(d) > least * least) out.push_back({x, y, std::min(d, int64_t{halo} * halo)});
-    }
-}
-
 /// The middles of holes, the largest first.
-std::vector<ElementPacking::Hole> ElementPacking::holes() const {
-  if (std::ranges::none_of(places_, [&](const Place& p) { return is_filled(p); }))
-    return {{size_.width / 2, size_.height / 2}};
-  std::vector<Hole> out;
-  constexpr int rows = 256;
-  for (int top = 0; top < size_.height; top += rows) add_holes(top, std::min(size_.height, top + rows), out);
-  std::ranges::sort(out, [](const Hole& a, const Hole& b) {
-    return std::tuple(-a.squared, a.row, a.column) < std::tuple(-b.squared, b.row, b.column);
-  });
-  return out;
+std::vector<Hole> ElementPacking::holes() const {
+  std::vector<uint8_t> filled(places_.size());
+  std::ranges::transform(places_, filled.begin(), [&](const Place& p) { return uint8_t(is_filled(p)); });
+  const double least = std::max(1.0, pack_tuning->hole * shapes_.typical_side);
+  return find_holes(filled, size_, closed_x_, closed_y_, least,
+                    int(pack_tuning->farthest_filled * shapes_.typical_side) + 1);
 }
 
 /// How often an element is seen around a place, the nearer the more.
@@ -338,11 +317,12 @@ void ElementPacking::settle(const Task& task) {
   for (int round = 0; round < pack_tuning->settling; round++) {
     task.check();
     std::vector<PlacedElement> moved = placed_;
-    for (size_t i = 0; i < placed_.size(); i++) {
-      if (placed_[i].stays) continue;
+    tbb::parallel_for(0, int(placed_.size()), [&](int n) {
+      const auto i = size_t(n);
+      if (placed_[i].stays) return;
       const ElementShape& shape = shapes_[placed_[i].element];
       const int column = shapes_.column_of(placed_[i]), row = shapes_.row_of(placed_[i]);
-      const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, overlap, int(i)).value(); };
+      const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, overlap, n).value(); };
       int x = 0, y = 0;
       double best = value(0, 0);
       const double least = best + pack_tuning->worth_moving;
@@ -353,10 +333,10 @@ void ElementPacking::settle(const Task& task) {
             x += dx;
             y += dy;
           }
-      if (best < least) continue;
+      if (best < least) return;
       moved[i].shift_x -= (x + (x > 0 ? 1 : 0)) / 2 * shapes_.block;
       moved[i].shift_y -= (y + (y > 0 ? 1 : 0)) / 2 * shapes_.block;
-    }
+    });
     if (moved == placed_) return;
     placed_ = std::move(moved);
     paint_all();

@@ -10,6 +10,7 @@
 #include "core/base/task.h"
 #include "core/exemplar/repeats.h"
 #include "core/synthesis/state/field.h"
+#include "core/synthesis/steps/element_holes.h"
 #include "core/synthesis/steps/element_shapes.h"
 
 namespace terrazzo {
@@ -56,10 +57,8 @@ class ElementPacking {
     Depth neighbour;  ///< in the next one, mostly negative; far below 0 if there is none near
   };
   const std::vector<PlacedElement>& placed() const { return placed_; }
-  /// By how many blocks an element may end too early without leaving a hole.
-  double tolerance() const;
   /// Whether a block is not part of a hole that no element fits.
-  bool is_filled(const Place& p) const { return double(p.depth.blocks()) > -tolerance(); }
+  bool is_filled(const Place& p) const { return double(p.depth.blocks()) > -tolerance_; }
   const Place& at(int x, int y) const { return places_[size_t(y) * size_t(size_.width) + size_t(x)]; }
   /// The same around the borders of a result that wraps; null outside of one that does not.
   const Place* find(int x, int y) const {
@@ -80,12 +79,7 @@ class ElementPacking {
     double least_gain, overlap;
   };
   int fill_holes(const Terms& terms, const Task& task);
-  struct Hole {
-    int column = 0, row = 0;
-    int64_t squared = 0;  ///< of its radius
-  };
   std::vector<Hole> holes() const;
-  void add_holes(int top, int bottom, std::vector<Hole>& out) const;
   bool fill(const Hole& hole, const Terms& terms);
   template <typename Visit>
   void for_places(const ElementShape& shape, const Hole& hole, Visit visit) const;
@@ -115,7 +109,8 @@ class ElementPacking {
   const ElementShapes& shapes_;
   Size size_;
   bool closed_x_, closed_y_;
-  Lattice lattice_;  ///< of rank 0: elements come anywhere
+  double tolerance_;  ///< by how many blocks an element may end too early without leaving a hole
+  Lattice lattice_;   ///< of rank 0: elements come anywhere
   const PartPhases* phase_ = nullptr;
   std::vector<PlacedElement> placed_;
   std::vector<Place> places_;
