@@ -47,10 +47,11 @@ std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel&
   const double most_coherence = piece_limits_tuning->most_coherence;
   const double large = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
-  for (size_t i = 0; i < factors.size(); i++) {
-    const double size = pieces.area(pieces.of(int(i))) / large;
+  for (int piece = 0; piece < pieces.count(); piece++) {
+    const double size = pieces.area(piece) / large;
     const double penalty = size < limits.fragment ? 2 - size / limits.fragment : std::max(1.0, size);
-    factors[i] = uint32_t(std::min(most_coherence, coherence * penalty) * unit_factor);
+    const auto factor = uint32_t(std::min(most_coherence, coherence * penalty) * unit_factor);
+    for (const int i : pieces.members(piece)) factors[size_t(i)] = factor;
   }
   return factors;
 }

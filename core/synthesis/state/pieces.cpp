@@ -1,5 +1,6 @@
 #include "core/synthesis/state/pieces.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/base/disjoint_sets.h"
@@ -8,35 +9,65 @@ namespace terrazzo {
 
 Pieces::Pieces(const Field& field, int block, bool wraps_x, bool wraps_y) {
   const Size size = field.size;
-  const int count = int(size.area());
-  DisjointSets joined{size_t(count)};
-  const auto join_if_continued = [&](int from, int to, int dx, int dy) {
-    const ExemplarPixel p = field.pixels[from], q = field.pixels[to];
-    if (p.x + dx == q.x && p.y + dy == q.y) joined.join(uint32_t(from), uint32_t(to));
+  const auto continues = [&](int from, int to, int dx, int dy) {
+    const ExemplarPixel p = field.pixels[size_t(from)], q = field.pixels[size_t(to)];
+    return p.x + dx == q.x && p.y + dy == q.y;
   };
-  for (int y = 0; y < size.height; y++)
+  std::vector<Run> runs;
+  std::vector<size_t> rows{0};  // where each row's runs begin
+  for (int y = 0; y < size.height; y++) {
     for (int x = 0; x < size.width; x++) {
       const int i = y * size.width + x;
-      if (x > 0 || wraps_x) join_if_continued(x > 0 ? i - 1 : i + size.width - 1, i, block, 0);
-      if (y > 0 || wraps_y) join_if_continued(y > 0 ? i - size.width : i + count - size.width, i, 0, block);
+      if (x > 0 && continues(i - 1, i, block, 0))
+        runs.back().length++;
+      else
+        runs.push_back({i, 1});
     }
-  piece_.resize(count);
-  std::vector<int> areas;
-  for (int i = 0; i < count; i++) {
-    const int first = int(joined.find(uint32_t(i)));
-    if (first == i) {
-      piece_[i] = int(areas.size());
-      areas.push_back(0);
-    } else {
-      piece_[i] = piece_[first];
-    }
-    areas[piece_[i]]++;
+    rows.push_back(runs.size());
   }
-  begin_.assign(areas.size() + 1, 0);
-  std::partial_sum(areas.begin(), areas.end(), begin_.begin() + 1);
+  DisjointSets joined{runs.size()};
+  // Two runs that continue one another do so wherever they meet.
+  const auto join_rows = [&](int upper, int lower) {
+    size_t a = rows[size_t(upper)], b = rows[size_t(lower)];
+    while (a < rows[size_t(upper) + 1] && b < rows[size_t(lower) + 1]) {
+      const int a_x = runs[a].first - upper * size.width, b_x = runs[b].first - lower * size.width;
+      const int x = std::max(a_x, b_x), a_end = a_x + runs[a].length, b_end = b_x + runs[b].length;
+      if (continues(upper * size.width + x, lower * size.width + x, 0, block)) joined.join(uint32_t(a), uint32_t(b));
+      a += a_end <= b_end;
+      b += b_end <= a_end;
+    }
+  };
+  for (int y = 0; y < size.height; y++) {
+    const size_t first = rows[size_t(y)], last = rows[size_t(y) + 1] - 1;
+    if (wraps_x && continues(runs[last].first + runs[last].length - 1, runs[first].first, block, 0))
+      joined.join(uint32_t(first), uint32_t(last));
+    if (y > 0 || wraps_y) join_rows(y > 0 ? y - 1 : size.height - 1, y);
+  }
+  std::vector<int> piece(runs.size());
+  std::vector<int> counts;
+  for (size_t i = 0; i < runs.size(); i++) {
+    const size_t first = joined.find(uint32_t(i));
+    piece[i] = first == i ? count() : piece[first];
+    if (first == i) {
+      areas_.push_back(0);
+      counts.push_back(0);
+    }
+    areas_[size_t(piece[i])] += runs[i].length;
+    counts[size_t(piece[i])]++;
+  }
+  begin_.assign(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), begin_.begin() + 1);
   std::vector<int> next(begin_.begin(), begin_.end() - 1);
-  members_.resize(count);
-  for (int i = 0; i < count; i++) members_[next[piece_[i]]++] = i;
+  runs_.resize(runs.size());
+  for (size_t i = 0; i < runs.size(); i++) runs_[size_t(next[size_t(piece[i])]++)] = runs[i];
+}
+
+std::vector<int> Pieces::members(int piece) const {
+  std::vector<int> out;
+  out.reserve(size_t(area(piece)));
+  for (int r = begin_[size_t(piece)]; r < begin_[size_t(piece) + 1]; r++)
+    for (int i = 0; i < runs_[size_t(r)].length; i++) out.push_back(runs_[size_t(r)].first + i);
+  return out;
 }
 
 }  // namespace terrazzo

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/synthesis/state/correction_level.h"
 
 namespace terrazzo {
@@ -11,16 +13,18 @@ class Pieces {
  public:
   explicit Pieces(const Field& field, int block = 1, bool wraps_x = false, bool wraps_y = false);
 
-  int count() const { return int(begin_.size()) - 1; }
-  int area(int piece) const { return begin_[piece + 1] - begin_[piece]; }
-  int of(int pixel) const { return piece_[pixel]; }
+  int count() const { return int(areas_.size()); }
+  int area(int piece) const { return areas_[size_t(piece)]; }
   /// The piece's pixels, as y * width + x, ascending.
-  std::span<const int> members(int piece) const { return {&members_[begin_[piece]], size_t(area(piece))}; }
+  std::vector<int> members(int piece) const;
 
  private:
-  std::vector<int> piece_;    // of every pixel
-  std::vector<int> begin_;    // of every piece in members_
-  std::vector<int> members_;  // pixels, piece by piece
+  struct Run {
+    int first, length;  // pixels side by side
+  };
+  std::vector<int> areas_;
+  std::vector<int> begin_;  // of every piece in runs_
+  std::vector<Run> runs_;   // piece by piece: far fewer than pixels
 };
 
 }  // namespace terrazzo

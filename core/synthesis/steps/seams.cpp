@@ -121,7 +121,8 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
   ExpansionGround ground(field, level, moves.block, true);
   ground.pressure.resize(field.pixels.size());
-  for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];
+  for (int piece = 0; piece < pieces.count(); piece++)
+    for (const int i : pieces.members(piece)) ground.pressure[size_t(i)] = pressure[size_t(piece)];
   tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves); });
   size_t done = 0;
   for (const std::vector<int>& round : rounds.all()) {
