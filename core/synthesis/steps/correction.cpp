@@ -1,6 +1,9 @@
 #include "core/synthesis/steps/correction.h"
 
 #include <atomic>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -29,6 +32,40 @@ const Tunable<CorrectionTuning> correction_tuning(
 constexpr int tile_columns = 32;
 constexpr int tile_rows = 4;
 constexpr int tiles_told = 512;  // that progress is told after: some milliseconds
+// Rows of a sub-pass that wait for the next ones: enough for all threads, few beside those of a large surface.
+constexpr int band_rows = 256;
+static_assert(2 * band_rows > correction_reach);
+
+/// Pixels of a sub-pass that are worked out but not yet in the field.
+class Corrected {
+ public:
+  Corrected() = default;
+  explicit Corrected(const SubPass& part) : part_(part), pixels_(size_t(part.columns) * size_t(part.rows)) {}
+
+  void work_out(const CorrectionInputs& inputs, const Task& task, const std::function<void(double)>& progress) {
+    const int tiles_down = (part_->rows + tile_rows - 1) / tile_rows;
+    const int tiles = (part_->columns + tile_columns - 1) / tile_columns * tiles_down;
+    std::atomic<int> done{0};
+    tbb::parallel_for(0, tiles, [&](int i) {
+      task.check();
+      if (const int before = done++; before % tiles_told == 0) progress(double(before) / tiles);
+      const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
+      correct_tile(inputs, *part_, intersect(tile, {0, 0, part_->columns, part_->rows}), pixels_.data());
+    });
+  }
+
+  void apply(Field& field) const {
+    if (!part_) return;
+    tbb::parallel_for(0, part_->rows, [&](int row) {
+      for (int i = 0; i < part_->columns; i++)
+        field.at(part_->x(i), part_->y(row)) = pixels_[size_t(row) * size_t(part_->columns) + size_t(i)];
+    });
+  }
+
+ private:
+  std::optional<SubPass> part_;
+  std::vector<ExemplarPixel> pixels_;
+};
 
 void require_room(const CorrectionPass& pass) {
   if (pass.window->size() > size_t(most_window_pixels) || pass.random_candidates > most_random_candidates)
@@ -43,28 +80,28 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
              const Task& task, const std::function<void(double)>& progress) {
   require_room(pass);
   const CorrectionInputs inputs{field, level, pass, usage, uint32_t(correction_tuning->repeat_penalty * unit_factor)};
-  std::vector<ExemplarPixel> next;
   for (int sub = 0; sub < sub_passes; sub++) {
     usage.recount(field, level.fixed);
     // What the following sub-passes read has to be right as well.
     const Rect wanted = intersect(whole(field.size), grown(pass.wanted, correction_reach * (sub_passes - 1 - sub)));
     const SubPass part(level.window, wanted, (sub ^ pass.pass) & 1, sub >> 1);
     if (part.columns <= 0 || part.rows <= 0) continue;
-    next.resize(size_t(part.columns) * part.rows);
-    const int tiles_down = (part.rows + tile_rows - 1) / tile_rows;
-    const int tiles_across = (part.columns + tile_columns - 1) / tile_columns;
-    const int tiles = tiles_across * tiles_down;
-    std::atomic<int> done{0};
-    tbb::parallel_for(0, tiles, [&](int i) {
-      task.check();
-      if (const int before = done++; progress && before % tiles_told == 0)
-        progress((sub + double(before) / tiles) / sub_passes);
-      const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
-      correct_tile(inputs, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
-    });
-    tbb::parallel_for(0, part.rows, [&](int row) {
-      for (int i = 0; i < part.columns; i++) field.at(part.x(i), part.y(row)) = next[size_t(row) * part.columns + i];
-    });
+    // Pixels change once no other reads them: a band when the next one is done, the first one, which the last reads
+    // where the field wraps, in the end.
+    Corrected first, before;
+    for (int top = 0; top < part.rows; top += band_rows) {
+      SubPass band = part;
+      band.first_y = part.y(top);
+      band.rows = std::min(band_rows, part.rows - top);
+      Corrected now(band);
+      now.work_out(inputs, task, [&](double done) {
+        if (progress) progress((sub + (top + done * band.rows) / part.rows) / sub_passes);
+      });
+      before.apply(field);
+      (top == 0 ? first : before) = std::move(now);
+    }
+    before.apply(field);
+    first.apply(field);
   }
 }
 
