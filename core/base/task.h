@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "core/base/error.h"
 
@@ -31,6 +32,8 @@ class Task {
     if (progress_) progress_(fraction);
     check();
   }
+  /// The task of a part of the work: what it reports goes to `progress`, which turns it into a fraction of the whole.
+  Task part(std::function<void(double)> progress) const { return {cancelled_, std::move(progress), preview_}; }
   /// Whether anybody wants to see how a result comes about; previews never change it.
   bool is_previewed() const { return bool(preview_); }
   void preview(const std::shared_ptr<const UvMap>& coarse) const {

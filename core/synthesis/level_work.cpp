@@ -120,7 +120,7 @@ void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wan
 
 void LevelWork::run(Phase phase, StepContext& c) {
   const int counts = counts_of(phase);
-  c.progress = [this, counts](double part) { report(done_ + counts * part); };
+  c.task = shared_.task.part([this, counts](double part) { report(done_ + counts * part); });
   run_steps(phase, c, [&] { report(done_ += counts); });
 }
 

@@ -203,9 +203,9 @@ void start_where_kept(StepContext& c) {
 /// would keep stubs of joints.
 void lay_whole_bricks(StepContext& c) {
   const Appearance& appearance = *c.shared.index.appearance();
-  const Coursing coursing = find_coursing(appearance, c.shared.task);
+  const Coursing coursing = find_coursing(appearance, c.task);
   const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
-  if (!lay_courses(c.field, 2, c.level, appearance, coursing, phase, c.shared.task)) return;
+  if (!lay_courses(c.field, 2, c.level, appearance, coursing, phase, c.task)) return;
   const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
   const int reach = step_tuning->seam_reach_around_bricks;
   c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,
@@ -214,8 +214,7 @@ void lay_whole_bricks(StepContext& c) {
 }
 
 void lay_whole_elements(StepContext& c) {
-  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.shared.task,
-               c.progress);
+  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.task);
 }
 
 void complete(StepContext& c) {
@@ -240,14 +239,14 @@ SeamMoves seams_to_joints(const StepContext& c) {
 }
 
 void move_to_joints(StepContext& c) {
-  move_seams(c.field, c.level, c.seams ? *c.seams : seams_to_joints(c), c.shared.task, c.progress);
+  move_seams(c.field, c.level, c.seams ? *c.seams : seams_to_joints(c), c.task);
 }
 
 void repair(StepContext& c) {
   const int left = c.effort.passes - c.pass;
   // Without a lattice the second time breaks more than it mends.
   if (left == step_tuning->first_repair || (left == step_tuning->last_repair && (c.facts.regular || c.facts.kept)))
-    repair_seams(c.field, c.level, c.usage, c.bits(Purpose::graphcut_repair), c.shared.task);
+    repair_seams(c.field, c.level, c.usage, c.bits(Purpose::graphcut_repair), c.task);
 }
 
 double coherence(const StepContext& c) {
@@ -266,7 +265,7 @@ void correct_pixels(StepContext& c) {
                       .seed = c.bits(Purpose::correction),
                       .pass = c.pass,
                       .wanted = grown(c.wanted, reach_of(c.effort.passes - 1 - c.pass))};
-  correct(c.field, c.level, pass, c.usage, c.shared.task, c.progress);
+  correct(c.field, c.level, pass, c.usage, c.task);
 }
 
 StepWatcher watcher;  // see watch_steps()

@@ -132,7 +132,7 @@ struct StepContext {
   Rect wanted{};                            ///< the columns and rows that have to be right in the end
   std::optional<SeamMoves> seams{};         ///< how seams move on this level, if a step before has decided it
   std::vector<uint32_t> piece_coherence{};  ///< for this pass, see CorrectionPass
-  std::function<void(double)> progress{};   ///< takes, from any thread, which fraction of the running step is done
+  Task task{};                              ///< of the running step alone
 
   uint64_t bits(uint64_t purpose) const;
 };

@@ -42,13 +42,13 @@ class Corrected {
   Corrected() = default;
   explicit Corrected(const SubPass& part) : part_(part), pixels_(size_t(part.columns) * size_t(part.rows)) {}
 
-  void work_out(const CorrectionInputs& inputs, const Task& task, const std::function<void(double)>& progress) {
+  void work_out(const CorrectionInputs& inputs, const Task& task) {
     const int tiles_down = (part_->rows + tile_rows - 1) / tile_rows;
     const int tiles = (part_->columns + tile_columns - 1) / tile_columns * tiles_down;
     std::atomic<int> done{0};
     tbb::parallel_for(0, tiles, [&](int i) {
       task.check();
-      if (const int before = done++; before % tiles_told == 0) progress(double(before) / tiles);
+      if (const int before = done++; before % tiles_told == 0) task.progress(double(before) / tiles);
       const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
       correct_tile(inputs, *part_, intersect(tile, {0, 0, part_->columns, part_->rows}), pixels_.data());
     });
@@ -77,7 +77,7 @@ void require_room(const CorrectionPass& pass) {
 }  // namespace
 
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
-             const Task& task, const std::function<void(double)>& progress) {
+             const Task& task) {
   require_room(pass);
   const CorrectionInputs inputs{field, level, pass, usage, uint32_t(correction_tuning->repeat_penalty * unit_factor)};
   for (int sub = 0; sub < sub_passes; sub++) {
@@ -94,9 +94,9 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
       band.first_y = part.y(top);
       band.rows = std::min(band_rows, part.rows - top);
       Corrected now(band);
-      now.work_out(inputs, task, [&](double done) {
-        if (progress) progress((sub + (top + done * band.rows) / part.rows) / sub_passes);
-      });
+      now.work_out(inputs, task.part([&](double done) {
+        task.progress((sub + (top + done * band.rows) / part.rows) / sub_passes);
+      }));
       before.apply(field);
       (top == 0 ? first : before) = std::move(now);
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 
 #include "core/base/task.h"
 #include "core/synthesis/state/correction_level.h"
@@ -13,9 +12,8 @@ namespace terrazzo {
 /// One correction pass (Lefebvre & Hoppe 2005, section 4.3): every pixel takes the best of its neighbours'
 /// continuations, their k-coherent candidates and some random places. It runs as four sub-passes over interleaved
 /// pixels, each of which reads what the one before has written: the result depends neither on the order of work nor on
-/// which part of the plane the field holds. `progress`, if given, is told from any thread which fraction is done.
-/// Throws Cancelled, and Error for more candidates than the kernel takes.
+/// which part of the plane the field holds. Throws Cancelled, and Error for more candidates than the kernel takes.
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
-             const Task& task, const std::function<void(double)>& progress = {});
+             const Task& task);
 
 }  // namespace terrazzo

@@ -52,7 +52,7 @@ class ElementLayout {
         shapes_(places_.shapes()),
         packing_(shapes_, field.size, level.window.closed_x, level.window.closed_y) {}
 
-  void lay(const Task& task, const std::function<void(double)>& progress) {
+  void lay(const Task& task) {
     Places places = places_.shown();
     std::vector<PlacedElement> placed;
     for (auto& of_element : places)
@@ -62,7 +62,7 @@ class ElementLayout {
       }
     if (lattice_) packing_.keep_to(*lattice_, level_.phase);
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
-    packing_.pack(std::move(placed), task, progress);
+    packing_.pack(std::move(placed), task);
     warps_.resize(packing_.placed().size());
     if (!in_grid())
       tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
@@ -150,9 +150,9 @@ bool has_elements(const Appearance& appearance) {
 }
 
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                  const Lattice* lattice, const Task& task, const std::function<void(double)>& progress) {
+                  const Lattice* lattice, const Task& task) {
   ElementLayout layout(field, block, level, appearance, lattice);
-  layout.lay(task, progress);
+  layout.lay(task);
 }
 
 }  // namespace terrazzo

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 
 #include "core/base/task.h"
 #include "core/exemplar/appearance.h"
@@ -14,9 +13,9 @@ namespace terrazzo {
 /// the rims of both are squeezed or stretched until joints meet (ElementWarp). In a grid elements are rigid, and gaps
 /// show what they did. Kept pixels stay; elements that are kept in part go on beyond. Each pixel of the field stands
 /// for a block of `block` x `block` pixels of the finest level. `lattice`: what elements keep to: cells, or courses,
-/// along which they lie anywhere; null: nothing. `progress` is told which fraction is done. Throws Cancelled.
+/// along which they lie anywhere; null: nothing. Throws Cancelled.
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                  const Lattice* lattice, const Task& task, const std::function<void(double)>& progress);
+                  const Lattice* lattice, const Task& task);
 
 /// Whether an exemplar has elements, and enough of them whole, to be laid. How sure they must be was asked where they
 /// were found.

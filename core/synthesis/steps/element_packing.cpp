@@ -359,12 +359,11 @@ int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
   return filled;
 }
 
-void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task,
-                          const std::function<void(double)>& progress) {
+void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
   placed_ = std::move(placed);
   paint_all();
   for (int round = 0; round < pack_tuning->rounds; round++) {
-    progress(double(round) / pack_tuning->rounds);
+    task.progress(double(round) / pack_tuning->rounds);
     take_away_covered(task);
     // What is left is filled with what disturbs least.
     const double part = std::max(0.0, 1 - round / 3.0);

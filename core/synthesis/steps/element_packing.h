@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -34,8 +33,7 @@ class ElementPacking {
   /// there, until there is no hole left that one fits. Whole-element placement, as Hurtut et al., Appearance-guided
   /// synthesis of element arrangements by example (2009), with depth fields in place of their distances. Throws
   /// Cancelled.
-  void pack(
-      std::vector<PlacedElement> placed, const Task& task, const std::function<void(double)>& progress = [](double) {});
+  void pack(std::vector<PlacedElement> placed, const Task& task);
 
   /// A depth in 32nds of a block, up to 1024 blocks: surfaces have many of them.
   class Depth {

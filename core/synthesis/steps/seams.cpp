@@ -108,8 +108,7 @@ std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPix
   return out;
 }
 
-void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task,
-           const std::function<void(double)>& progress) {
+void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
   const Pieces pieces(field, moves.block, level.window.closed_x, level.window.closed_y);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
@@ -126,7 +125,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves); });
   size_t done = 0;
   for (const std::vector<int>& round : rounds.all()) {
-    progress(double(done++) / double(rounds.all().size()));
+    task.progress(double(done++) / double(rounds.all().size()));
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();
       const int piece = round[size_t(i)];
@@ -137,13 +136,10 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
 
 }  // namespace
 
-void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task,
-                const std::function<void(double)>& progress) {
+void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
   const int sweeps = seams_tuning->sweeps;
   for (int i = 0; i < sweeps; i++)
-    sweep(field, level, moves, task, [&](double part) {
-      if (progress) progress((i + part) / sweeps);
-    });
+    sweep(field, level, moves, task.part([&](double done) { task.progress((i + done) / sweeps); }));
 }
 
 }  // namespace terrazzo

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 
 #include "core/synthesis/steps/correction.h"
 
@@ -24,8 +23,7 @@ struct SeamMoves {
 /// that lowers the mismatch summed along all seams. The best way to spread is a minimum cut (expansion moves: Boykov,
 /// Veksler & Zabih 2001; for textures Kwatra et al. 2003, who also make seams along edges cheaper), so that seams move
 /// where no single pixel would gain. `level.fixed` refers to pixels of the field, which stay. Under controls no pixel
-/// changes to what costs more. `progress`, if given, is told which fraction is done. Throws Cancelled.
-void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task,
-                const std::function<void(double)>& progress = {});
+/// changes to what costs more. Throws Cancelled.
+void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task);
 
 }  // namespace terrazzo
