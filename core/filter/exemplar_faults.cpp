@@ -19,12 +19,15 @@ constexpr double steps = 255.0 / 5;  // colours within 2/255 of each other fall 
 /// How often each colour occurs, and the brightness of blocks.
 class Look {
  public:
-  explicit Look(const Image& image) : image_(image), colours_(std::min(image.channels(), 3)) {
+  explicit Look(const Image& image)
+      : image_(image), colours_(std::min(image.channels(), LoneFeatureSearch::channels)), lone_(image.size()) {
     for_each_strip(image, [&](const Rect& r, const float* v) {
       for (int y = r.y; y < r.bottom(); y++)
         for (int x = 0; x < r.width; x++, v += image.channels()) add(x, y, v);
     });
   }
+
+  LoneFeature lone() const { return lone_.find(); }
 
   double one_colour() const {
     int64_t most = 0;
@@ -42,14 +45,16 @@ class Look {
  private:
   void add(int x, int y, const float* v) {
     std::array<int, 3> colour{};
+    std::array<double, LoneFeatureSearch::channels> values{};
     double brightness = 0;
     for (int c = 0; c < colours_; c++) {
-      const double value = std::clamp(double(v[c]), 0.0, 1.0);
+      const double value = values[c] = std::max(0.0, std::min(1.0, double(v[c])));  // 1 for what is no number
       colour[c] = int(value * steps + 0.5);
       brightness += value / colours_;
     }
     if (last_ == counts_.end() || last_->first != colour) last_ = counts_.try_emplace(colour, 0).first;
     last_->second++;
+    lone_.add(x, y, values.data());
     const size_t block = size_t(int64_t{y} * blocks / image_.height() * blocks + int64_t{x} * blocks / image_.width());
     sums_[block] += brightness;
     pixels_[block]++;
@@ -57,6 +62,7 @@ class Look {
 
   const Image& image_;
   const int colours_;
+  LoneFeatureSearch lone_;
   std::map<std::array<int, 3>, int64_t> counts_;
   std::map<std::array<int, 3>, int64_t>::iterator last_ = counts_.end();
   std::array<double, blocks * blocks> sums_{};
@@ -70,6 +76,7 @@ ExemplarFaults exemplar_faults(const Image& image) {
   if (std::min(image.width(), image.height()) < blocks) return out;
   const Look look(image);
   out.one_colour = look.one_colour();
+  out.lone = look.lone();
   const auto means = look.means();
   // A plane through the means, by least squares: the columns of x, y and 1 are orthogonal.
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();

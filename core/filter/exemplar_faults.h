@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "core/filter/lone_feature.h"
 #include "core/image/image.h"
 
 namespace terrazzo {
@@ -12,6 +13,7 @@ struct ExemplarFaults {
   double brightening = 0;  ///< increase of the mean from one side to the opposite one, relative to the darker side
   double unevenness = 0;   ///< deviation of block means from that trend, likewise relative
   std::string_view bright_side = "left", dark_side = "right";
+  LoneFeature lone{};
 
   // The limits trade false alarms against missed faults. None of twelve photographed exemplars of all kinds comes near
   // them (tests cover both sides).

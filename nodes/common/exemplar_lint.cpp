@@ -21,6 +21,11 @@ std::vector<std::string> lint_of_colour(const std::string& subject, const std::f
           fmt::format("{}: the exemplar is {:.0f} % brighter at the {} than at the {}: light that was baked in shows "
                       "as blotches in a result. A photograph in flat light, or a filter that evens it out, helps",
                       subject, 100 * found.brightening, found.bright_side, found.dark_side));
+    if (found.lone.is_seen())
+      out.push_back(
+          fmt::format("{}: the exemplar shows something around ({}, {}) only once; a result repeats it, and the eye "
+                      "finds that. Crop it off (crop), paint it over (inpaint), or leave it out by a mask",
+                      subject, found.lone.x, found.lone.y));
   } catch (const Error&) {
     // reading reports it
   }
