@@ -17,7 +17,8 @@ class Arrangement {
   /// `nodes`: of the document or of one of its graphs. Their order, and that of their wires, decides.
   Arrangement(const JsonValue& document, const JsonValue& nodes);
 
-  /// All of them, from left to right. In pixels; the top left corner of the whole is near 0, 0.
+  /// All of them, from left to right; what would be a long line goes on in rows below. In pixels; the top left corner
+  /// of the whole is near 0, 0.
   Positions automatic() const;
   /// Those of `known`, and the others beside what they read, where nothing stands.
   Positions completed(Positions known) const;

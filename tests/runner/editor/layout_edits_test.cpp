@@ -23,9 +23,7 @@ class LaidOut {
  public:
   explicit LaidOut(std::string text) : document_(folder_.path() / "g.json", std::move(text)) {}
 
-  void edit(const char* edits) {
-    document_.edit({{"base", 1}, {"edits", ordered_json::parse("[" + std::string(edits) + "]")}});
-  }
+  void edit(const char* edits) { document_.edit({{"edits", ordered_json::parse("[" + std::string(edits) + "]")}}); }
   void undo() { document_.undo(); }
   ordered_json level(const std::string& name = "") { return state_json(document_.snapshot())["levels"][name]; }
   std::map<std::string, std::pair<double, double>> places(const std::string& name = "") {
@@ -91,6 +89,31 @@ TEST_CASE("cards do not overlap") {
                                by + height(b) <= ay;
         CHECK_MESSAGE(are_apart, a["name"] << " and " << b["name"]);
       }
+  }
+}
+
+TEST_CASE("a long chain goes on in rows") {
+  const auto shape_of = [](int count) {
+    std::string nodes = R"("n0": {"type": "pattern"})", last = "n0";
+    for (int i = 1; i < count; i++) {
+      const std::string name = "n" + std::to_string(i);
+      nodes += ", \"" + name + R"(": {"type": "crop", "material": "@)" + last + "\"}";
+      last = name;
+    }
+    LaidOut graph("{\"terrazzo\": 1, \"nodes\": {" + nodes + "}}");
+    double width = 0, height = 0;
+    for (const auto& [name, at] : graph.places()) {
+      width = std::max(width, at.first + 176);
+      height = std::max(height, at.second + 66);
+    }
+    return std::pair(width, height);
+  };
+  CHECK(shape_of(8).second < 120);  // a short one stays in its row
+  for (const int count : {12, 30, 80}) {
+    CAPTURE(count);
+    const auto [width, height] = shape_of(count);
+    CHECK(width < (count > 20 ? 4.5 : 7) * height);
+    CHECK(height < 1.5 * width);
   }
 }
 
