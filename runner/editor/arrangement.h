@@ -22,6 +22,10 @@ class Arrangement {
   Positions automatic() const;
   /// Those of `known`, and the others beside what they read, where nothing stands.
   Positions completed(Positions known) const;
+  /// The nearest place at or below `wanted` where the card of this node covers none of `others`.
+  NodePlace free_place(NodePlace wanted, const std::string& node, const Positions& others) const {
+    return free_place(wanted, positions_.at(node), others);
+  }
 
  private:
   NodePlace free_place(NodePlace place, size_t node, const Positions& known) const;

@@ -233,4 +233,12 @@ scenario('frames on frames, and bends that follow', async () => {
   await e.toCanvas();
   await e.press('Control+z');
   await e.laidOut(() => e.layout.levels[''].frames.f2.at[0] === 40 && e.layout.levels[''].wires[wire][0][0] === 300, 'in one step');
+  // Several nodes by keyboard.
+  await e.press('Escape');
+  await e.card('stones').locator('.head').click();
+  await e.press('Shift+ArrowRight', 'Shift+ArrowRight');
+  await page.waitForFunction(() => document.querySelectorAll('.svelte-flow__node-card.selected').length === 3);
+  await e.press('ArrowLeft');
+  await page.waitForFunction(() => document.querySelector('.svelte-flow__node-card.selected')?.dataset.id === 'height');
+  assert.equal(await page.locator('.svelte-flow__node-card.selected').count(), 1);
 });

@@ -117,6 +117,17 @@ TEST_CASE("a long chain goes on in rows") {
   }
 }
 
+TEST_CASE("the node of a group covers no other") {
+  LaidOut graph(R"({"terrazzo": 1, "nodes": {"a": {"type": "pattern"}, "b": {"type": "crop", "material": "@a"},
+    "c": {"type": "crop", "material": "@b"}, "d": {"type": "crop", "material": "@c"}}})");
+  graph.edit(R"({"op": "move", "positions": {"a": [0, 300], "b": [240, 0], "c": [480, 0], "d": [720, 0]}})");
+  graph.edit(R"({"op": "group", "nodes": ["b", "d"], "name": "part"})");
+  const auto places = graph.places();
+  CHECK(places.at("c") == std::pair(480.0, 0.0));
+  CHECK(places.at("part").first == 480);
+  CHECK(places.at("part").second >= 66);
+}
+
 TEST_CASE("a node that was ungrouped comes back where it was") {
   LaidOut graph(chain);
   graph.edit(R"({"op": "group", "nodes": ["height", "soft"], "name": "part"})");

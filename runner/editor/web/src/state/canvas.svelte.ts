@@ -45,9 +45,9 @@ class Canvas {
     this.edges = this.edges.map((e) => !!e.selected === lines.has(e.id) ? e : {...e, selected: lines.has(e.id)});
   }
 
-  /// Selects a node, moves the view there if it is outside, and puts the keyboard's focus on it.
-  go(name: string) {
-    this.select([name]);
+  /// Selects a node, besides others, moves the view there if it is outside, and puts the keyboard's focus on it.
+  go(name: string, besides: string[] = []) {
+    this.select([...besides, name]);
     this.pane?.reveal(name);
     requestAnimationFrame(() => focusNode(name));
   }
