@@ -167,6 +167,13 @@ scenario('what has no effect, and parameters that presets set', async () => {
   await page.getByRole('button', {name: 'Hide 1 that'}).click();
   await field('make').locator('select').selectOption('larger');
   await field('scale').waitFor();
+  // Tab goes from a choice to the button that shows only beside the focus, and on.
+  const focused = () => page.evaluate(() => document.activeElement.ariaLabel ?? document.activeElement.tagName);
+  await field('make').locator('select').focus();
+  await e.press('Tab');
+  assert.match(await focused(), /^fx, an expression for make/);
+  await e.press('Tab');
+  assert.doesNotMatch(await focused(), /BODY/);
   // Removing a parameter takes it out of the presets, in the same step.
   await e.toCanvas();
   await e.press('Escape');
