@@ -18,7 +18,7 @@ const address = await new Promise((done) => {
   let printed = '';
   server.stdout.on('data', (bytes) => { const found = /http:\/\/\S+\s/.exec(printed += bytes); if (found) done(found[0].trim()); });
 });
-const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu']});
+const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader']});
 const page = await browser.newPage({viewport: {width: 1280, height: 800}, colorScheme: 'dark'});
 const pause = (seconds) => page.waitForTimeout(seconds * 1000);
 const node = (name) => page.locator(`.svelte-flow__node[data-id="${name}"]`);
@@ -53,6 +53,15 @@ for (const scheme of ['dark', 'light']) {
 }
 await page.emulateMedia({colorScheme: 'dark'});
 
+// The editor beside what it has made.
+const both = await browser.newPage({viewport: {width: 1645, height: 640}});
+const inline = (file) => 'data:image/png;base64,' + fs.readFileSync(file).toString('base64');
+await both.setContent(`<body style="margin:0;display:flex;gap:32px;padding:16px;background:#0b0c0e">
+  <img style="height:608px;border-radius:6px" src="${inline('editor-dark.png')}"><img style="height:608px;border-radius:6px" src="${inline('result.png')}">`);
+await both.waitForFunction(() => [...document.images].every((i) => i.complete && i.naturalWidth));
+await both.screenshot({path: 'editor-result.png'});
+await both.close();
+
 // The recording. The browser does not draw a pointer by itself.
 await page.evaluate(() => {
   const pointer = document.createElement('div');
@@ -64,7 +73,7 @@ await page.evaluate(() => {
 const frames = [], screen = await page.context().newCDPSession(page);
 screen.on('Page.screencastFrame', ({data, metadata, sessionId}) => {
   frames.push({data, at: metadata.timestamp});
-  void screen.send('Page.screencastFrameAck', {sessionId});
+  screen.send('Page.screencastFrameAck', {sessionId}).catch(() => undefined);  // the recording may have ended
 });
 let at = {x: 640, y: 400};
 async function go(to, seconds = 0.6) {
@@ -108,7 +117,19 @@ await pause(1.2);
 await click(page.locator('.cell').nth(2));
 await pause(0.3);
 await click(page.getByRole('button', {name: 'Take this one'}));
-await pause(2.5);
+await pause(1.6);
+// Lit, with a light that goes round.
+await click(button('Lit'));
+await view.locator('.lit canvas').waitFor();
+await pause(1);
+const light = view.getByRole('slider', {name: 'light', exact: true}), track = await light.boundingBox();
+const onTrack = (part) => ({x: track.x + track.width * part, y: track.y + track.height / 2});
+await go(onTrack(135 / 360));
+await page.mouse.down();
+await go(onTrack(0.95), 1.6);
+await go(onTrack(0.15), 2);
+await page.mouse.up();
+await pause(1.2);
 await screen.send('Page.stopScreencast');
 
 // At most eight frames a second of what is shown: twenty seconds, however slow the machine is.

@@ -17,9 +17,18 @@ npm ci --silent --no-audit --no-fund
 "$program" run "$here/../../graphs/generate-exemplar.json" --set type=cobbles --set size=512x512 --set out="$scratch/cobbles" \
   --progress none
 "$program" new cobbles -o wall.json
+# The material that the editor shows, lit, for the picture of both.
+cat >lit.json <<'END'
+{"terrazzo": 1, "nodes": {
+  "wall": {"type": "load_material", "path": "out"},
+  "lit": {"type": "preview", "material": "@wall", "size": 1024},
+  "file": {"type": "export", "material": "@lit", "path": "result.png"}}}
+END
+"$program" run wall.json --progress none
+"$program" run lit.json --progress none
 node "$here/editor_pictures.mjs" "$program" "$browser"
-for scheme in dark light; do
-  cwebp -quiet -q 86 -m 6 "editor-$scheme.png" -o "$here/pictures/editor-$scheme.webp"
+for picture in dark light result; do
+  cwebp -quiet -q 86 -m 6 "editor-$picture.png" -o "$here/pictures/editor-$picture.webp"
 done
 # frames.txt: for each frame "-d MILLISECONDS FILE".
 xargs -a frames.txt img2webp -loop 0 -lossy -q 55 -m 5 -o "$here/pictures/editor.webp" >/dev/null

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -115,6 +116,34 @@ void rename_declaration(EditContext& context, const std::string& from, const std
           if (m.name == from) m.name = to;
 }
 
+/// What gives a value to a graph's parameter that is removed: presets, and where the graph is used, nodes.
+void remove_values(EditContext& context, const std::string& name) {
+  std::set<std::string> targets;
+  if (context.level.empty()) targets.insert(name);
+  const auto in_uses = [&](JsonValue& graph, const std::string& within) {
+    JsonValue* uses = graph.find("nodes");
+    if (!uses || context.level.empty()) return;
+    for (JsonMember& node : uses->members) {
+      const JsonValue* type = node.value.find("type");
+      if (!type || type->text != context.level) continue;
+      if (&graph == &context.document) targets.insert(node.name + "." + name);
+      if (erase_member(node.value, name))
+        context.out.taken.push_back(
+            fmt::format("{}{} no longer sets {}", in_quotes(node.name), within, in_quotes(name)));
+    }
+  };
+  in_uses(context.document, "");
+  if (JsonValue* graphs = context.document.find("graphs"))
+    for (JsonMember& m : graphs->members) in_uses(m.value, " in " + in_quotes(m.name));
+  if (JsonValue* presets = context.document.find("presets"))
+    for (JsonMember& preset : presets->members)
+      if (JsonValue* set = preset.value.find("set"))
+        for (const std::string& target : targets)
+          if (erase_member(*set, target))
+            context.out.taken.push_back(
+                fmt::format("the preset {} no longer sets {}", in_quotes(preset.name), in_quotes(target)));
+}
+
 }  // namespace
 
 void set(EditContext& context) {
@@ -146,6 +175,8 @@ void set_parameter(EditContext& context) {
       (!parameters || !parameters->find(name)))
     throw Error(fmt::format("the graph has no parameter {}", in_quotes(name)));
   set_entry(context, "parameters", name);
+  if (const JsonValue* set = context.change->find("set"); set && set->kind == JsonValue::Kind::null)
+    remove_values(context, name);
   if (!to.empty() && to != name) rename_declaration(context, name, to);
   context.label("change the parameter " + in_quotes(name));
 }

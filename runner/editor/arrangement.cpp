@@ -52,6 +52,59 @@ double height_of(const JsonValue& document, const JsonValue& node, size_t source
   return bare_height + port_height * double(rows);
 }
 
+/// Where a row of columns ends so that few wires go on in the next: the first column behind it.
+std::vector<size_t> row_ends(size_t columns, size_t rows, const std::vector<size_t>& crossing) {
+  constexpr size_t reach = 1;  // columns to either side of even rows
+  std::vector<size_t> out;
+  for (size_t r = 1; r < rows; r++) {
+    const size_t even = r * columns / rows;
+    size_t best = even;
+    for (size_t end = even - reach; end <= even + reach; end++)
+      if (end > (out.empty() ? 0 : out.back()) && end < columns && crossing[end] < crossing[best]) best = end;
+    out.push_back(best);
+  }
+  out.push_back(columns);
+  return out;
+}
+
+/// Puts a long row of columns into several, one below the other, about twice as wide as high in all.
+void wrap(std::vector<Point>& corners, const std::vector<BoxSize>& boxes, const std::vector<LayoutWire>& wires) {
+  constexpr size_t most_columns = 9, fewest_in_row = 5;
+  constexpr double between_rows = 72, shape = 2, too_long = 4;
+  std::map<double, size_t> columns;
+  for (const Point& p : corners) columns.emplace(p.x, 0);
+  for (size_t n = 0; auto& [x, index] : columns) index = n++;
+  if (columns.size() <= most_columns) return;
+  const double left = columns.begin()->first, width = columns.rbegin()->first + card_width - left;
+  double top = corners.front().y, bottom = top;
+  for (size_t i = 0; i < corners.size(); i++)
+    top = std::min(top, corners[i].y), bottom = std::max(bottom, corners[i].y + boxes[i].height);
+  if (width < too_long * (bottom - top)) return;
+  const size_t wanted = size_t(std::lround(std::sqrt(width / (shape * (bottom - top + between_rows)))));
+  const size_t rows = std::clamp<size_t>(wanted, 1, columns.size() / fewest_in_row);
+  std::vector<size_t> crossing(columns.size() + 1);  // by column: wires that come from before it
+  for (const LayoutWire& w : wires)
+    for (size_t c = columns[corners[w.from].x] + 1; c <= columns[corners[w.to].x]; c++) crossing[c]++;
+  std::vector<Point> moved = corners;
+  double y = top;
+  size_t first = 0;
+  for (const size_t end : row_ends(columns.size(), rows, crossing)) {
+    double own_top = bottom, own_bottom = top, own_left = left + width;
+    std::vector<size_t> own;
+    for (size_t i = 0; i < corners.size(); i++)
+      if (const size_t c = columns[corners[i].x]; c >= first && c < end) {
+        own.push_back(i);
+        own_left = std::min(own_left, corners[i].x);
+        own_top = std::min(own_top, corners[i].y);
+        own_bottom = std::max(own_bottom, corners[i].y + boxes[i].height);
+      }
+    for (const size_t i : own) moved[i] = {corners[i].x - own_left + left, corners[i].y - own_top + y};
+    y += own_bottom - own_top + between_rows;
+    first = end;
+  }
+  corners = std::move(moved);
+}
+
 }  // namespace
 
 Arrangement::Arrangement(const JsonValue& document, const JsonValue& nodes) {
@@ -76,7 +129,8 @@ Arrangement::Positions Arrangement::automatic() const {
   for (const size_t i : order_)
     for (const size_t source : sources_[i])
       if (rank[source] < rank[i]) wires.push_back({rank[source], middle_of_head, rank[i], middle_of_head});
-  const Layout layout = lay_out(boxes, wires);
+  Layout layout = lay_out(boxes, wires);
+  if (!boxes.empty()) wrap(layout.corners, boxes, wires);
   Positions out;
   for (size_t k = 0; k < order_.size(); k++)
     out[names_[order_[k]]] = {std::round(layout.corners[k].x), std::round(layout.corners[k].y), false};

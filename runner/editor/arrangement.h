@@ -17,10 +17,15 @@ class Arrangement {
   /// `nodes`: of the document or of one of its graphs. Their order, and that of their wires, decides.
   Arrangement(const JsonValue& document, const JsonValue& nodes);
 
-  /// All of them, from left to right. In pixels; the top left corner of the whole is near 0, 0.
+  /// All of them, from left to right; what would be a long line goes on in rows below. In pixels; the top left corner
+  /// of the whole is near 0, 0.
   Positions automatic() const;
   /// Those of `known`, and the others beside what they read, where nothing stands.
   Positions completed(Positions known) const;
+  /// The nearest place at or below `wanted` where the card of this node covers none of `others`.
+  NodePlace free_place(NodePlace wanted, const std::string& node, const Positions& others) const {
+    return free_place(wanted, positions_.at(node), others);
+  }
 
  private:
   NodePlace free_place(NodePlace place, size_t node, const Positions& known) const;

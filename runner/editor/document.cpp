@@ -14,6 +14,7 @@
 #include "graphs/text/format.h"
 #include "graphs/text/read_document.h"
 #include "runner/editor/layout_edits.h"
+#include "runner/editor/recent_texts.h"
 #include "runner/editor/undo.h"
 
 namespace terrazzo {
@@ -72,12 +73,13 @@ std::string edited_text(const EditRequest& edits, const EditRequest& request, co
   return text;
 }
 
-/// Edits with the same key, not empty, within a second of each other become one step.
-std::string merging_key(const EditRequest& request, const EditRequest& edits) {
-  if (text_in(request, "label").empty() || edits.size() != 1 || !is_op(edits[0], {"set", "value"})) return "";
-  std::string out;
+UndoStack::Key merging_key(const EditRequest& request, const EditRequest& edits) {
+  const std::string tab = text_in(request, "tab") + '\n';
+  if (const std::string gesture = text_in(request, "gesture"); !gesture.empty()) return {tab + gesture, true};
+  if (text_in(request, "label").empty() || edits.size() != 1 || !is_op(edits[0], {"set", "value"})) return {};
+  std::string out = tab;
   for (const char* key : {"op", "level", "node", "key", "name"}) out += text_in(edits[0], key) + '\n';
-  return out;
+  return {out};
 }
 
 }  // namespace
@@ -91,6 +93,7 @@ class EditedDocument::Data {
   bool exists = false;      ///< the graph file, when last looked at
   LayoutFile layout;
   UndoStack steps;
+  RecentTexts recent;
   int64_t revision = 1;
   OnDisk on_disk = OnDisk::same;
   std::string save_error, conflict, theirs;
@@ -108,6 +111,7 @@ class EditedDocument::Data {
     } catch (const FileError& e) {
       layout.fault = e.what();
     }
+    recent.add(revision, now.graph);
   }
 
   void refuse_if_read_only() const {
@@ -115,7 +119,7 @@ class EditedDocument::Data {
   }
 
   /// One more step.
-  void commit(DocumentTexts after, const std::string& label, const std::string& key) {
+  void commit(DocumentTexts after, const std::string& label, const UndoStack::Key& key = {}) {
     if (after == now) return;
     steps.add(now, after, label, key);
     take(std::move(after));
@@ -126,6 +130,14 @@ class EditedDocument::Data {
     if (after.layout != now.layout) layout = read_layout(after.layout);
     now = std::move(after);
     revision++;
+    recent.add(revision, now.graph);
+  }
+
+  void refuse_unseen(const EditRequest& request, const EditRequest& edits) const {
+    const auto base = request.find("base");
+    if (base == request.end() || !base->is_number_integer()) return;
+    const std::string pointer = recent.changed_since(base->get<int64_t>(), now.graph, edits);
+    if (!pointer.empty()) throw EditConflict(pointer, "it was changed elsewhere at the same time: " + pointer);
   }
 
   /// Takes over what has changed on disk. Returns whether anything visible has.
@@ -190,7 +202,7 @@ class EditedDocument::Data {
       set_on_disk(OnDisk::changed, merge.conflict);
       return;
     }
-    steps.add(now, {merge.text, now.layout}, "the change on disk", "");
+    steps.add(now, {merge.text, now.layout}, "the change on disk", {});
     take({merge.text, now.layout});
     disk.graph = *text;
     set_on_disk(OnDisk::same, "");
@@ -237,6 +249,7 @@ DocumentSnapshot EditedDocument::snapshot() const {
           .undo = d.steps.undo_label(),
           .redo = d.steps.redo_label(),
           .saved = d.is_saved(),
+          .exists = d.exists,
           .read_only = d.read_only,
           .on_disk = d.on_disk,
           .save_error = d.save_error,
@@ -287,6 +300,7 @@ EditAnswer EditedDocument::edit(const EditRequest& request) {
       throw EditRefused(fmt::format("the request is malformed: {}", e.what()));
     }
   }
+  if (after != d.now) d.refuse_unseen(request, edits);
   d.commit(std::move(after), label, merging_key(request, edits));
   answer.revision = d.revision;
   return answer;
@@ -318,7 +332,7 @@ EditAnswer EditedDocument::format() {
   const std::lock_guard lock(data_->mutex);
   data_->refuse_if_read_only();
   try {
-    data_->commit({formatted(json_in(data_->now.graph)), data_->now.layout}, "format", "");
+    data_->commit({formatted(json_in(data_->now.graph)), data_->now.layout}, "format");
   } catch (const Error& e) {
     throw EditRefused(e.what());
   }
@@ -340,7 +354,7 @@ EditAnswer EditedDocument::resolve(bool keep_mine) {
   if (keep_mine)
     d.save();
   else
-    d.commit({d.theirs, d.now.layout}, "take the file on disk", "");
+    d.commit({d.theirs, d.now.layout}, "take the file on disk");
   return {.revision = d.revision};
 }
 

@@ -22,6 +22,12 @@ class EditRefused : public Error {
   using Error::Error;
 };
 
+/// Another edit has changed the same value, which this one did not know of yet.
+class EditConflict : public EditRefused {
+ public:
+  using EditRefused::EditRefused;
+};
+
 /// How the file on disk compares with what was last read from it or written to it.
 enum class OnDisk : uint8_t { same, changed, gone };
 
@@ -33,6 +39,7 @@ struct DocumentSnapshot {
   LayoutFile layout;
   std::optional<std::string> undo, redo;  ///< labels of the steps
   bool saved = true;
+  bool exists = true;  ///< a new graph's file is written by the first edit
   bool read_only = false;
   OnDisk on_disk = OnDisk::same;
   std::string save_error;  ///< why the last attempt to save failed; the text is kept and saved later
@@ -65,11 +72,12 @@ class EditedDocument {
   /// Cheap: for asking whether something has changed.
   int64_t revision() const;
 
-  /// Applies the request {"base": revision, "label"?, "edits": [...]} as one step of undo: edits of graphs/edit, and
-  /// those of the layout (move, pin, frame, bend) and of the whole text (text). Edits name nodes, so they apply to a
-  /// newer revision than `base`, too; only "text" needs the same, or `was`, the text that it was made from: then it is
-  /// merged with what has changed since. With a label, sets of the same key within a second become
-  /// one step. Throws EditRefused.
+  /// Applies the request {"base": revision, "label"?, "tab"?, "gesture"?, "edits": [...]} as one step of undo: edits of
+  /// graphs/edit, and those of the layout (move, pin, frame, bend) and of the whole text (text). Edits name nodes, so
+  /// they apply to a newer revision than `base`, too; only "text" needs the same, or `was`, the text that it was made
+  /// from: then it is merged with what has changed since. With a label, sets of the same key by the same tab within a
+  /// second become one step, and so do all edits of the same gesture. Throws EditRefused; EditConflict if a value is
+  /// replaced that has changed since `base`.
   EditAnswer edit(const nlohmann::ordered_json& request);
   /// Does nothing if there is no step. Throws EditRefused if the document is read-only.
   EditAnswer undo();

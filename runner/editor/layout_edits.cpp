@@ -168,7 +168,9 @@ void LayoutEdits::follow(const EditedText& changed, const nlohmann::ordered_json
     const nlohmann::ordered_json& edit = edits.at(changed.added_by[i]);
     const std::string level = member_text(edit, "level"), op = member_text(edit, "op");
     if (op == "group" && gone.contains(level)) {
-      levels_[level].nodes[changed.added[i]] = middle_of(gone[level]);
+      Positions& nodes = levels_[level].nodes;
+      nodes[changed.added[i]] =
+          Arrangement(*after, *nodes_of(*after, level)).free_place(middle_of(gone[level]), changed.added[i], nodes);
       levels_[changed.added[i]].nodes = gone[level];
     }
   }

@@ -124,6 +124,8 @@ HttpAnswer EditorServer::post(const HttpRequest& request) {
   if (!body.is_object()) return json_answer(400, {{"error", "expected a JSON object"}});
   try {
     return json_answer(200, calls_.at(request.path.substr(call_path.size()))(body));
+  } catch (const EditConflict& e) {
+    return json_answer(409, {{"error", e.what()}, {"pointer", e.about()}});
   } catch (const Error& e) {
     Json answer = {{"error", e.what()}};
     if (e.about().starts_with('/')) answer["pointer"] = e.about();

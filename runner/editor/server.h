@@ -12,6 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "runner/api/session.h"
+#include "runner/editor/document.h"
 #include "runner/editor/document_access.h"
 #include "runner/editor/events.h"
 #include "runner/editor/gate.h"
@@ -69,6 +70,7 @@ class EditorServer final : private HttpHandler {
   Json save_picture(const Json& request) const;
   Json pixels_of(const Json& request);
   Json piece_of(const Json& request);
+  Json histogram_of_picture(const Json& request);
   Json start_run(const Json& request);
 
   DocumentAccess& document_;

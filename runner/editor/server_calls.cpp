@@ -6,6 +6,7 @@
 #include "core/base/base64.h"
 #include "core/file/atomic_file.h"
 #include "runner/editor/previews/uv_piece.h"
+#include "runner/editor/previews/value_counts.h"
 #include "runner/editor/server.h"
 
 namespace terrazzo {
@@ -91,6 +92,7 @@ void EditorServer::add_calls() {
       {"save_picture", [this](const Json& request) { return save_picture(request); }},
       {"pixels", [this](const Json& request) { return pixels_of(request); }},
       {"piece", [this](const Json& request) { return piece_of(request); }},
+      {"histogram", [this](const Json& request) { return histogram_of_picture(request); }},
   };
 }
 
@@ -162,6 +164,15 @@ Json EditorServer::pixels_of(const Json& request) {
   std::vector<float> values(size_t(region.width) * size_t(region.height) * size_t(image->channels()));
   image->read(region, values.data());
   return {{"channels", image->channels()}, {"values", values}};
+}
+
+/// Of a picture's exact values, in 128 bins: {low, high, counts: [[..] by channel]}.
+Json EditorServer::histogram_of_picture(const Json& request) {
+  constexpr int bins = 128;
+  const ImagePtr image = pictures_.image(asked_text(request, "digest"));
+  if (!image) throw Error("this picture's values are not at hand any more");
+  const ValueCounts found = value_counts(*image, bins);
+  return {{"low", found.low}, {"high", found.high}, {"counts", found.counts}};
 }
 
 /// Of a uv map whose picture is shown: {digest, x, y, exemplar: {width, height}}.

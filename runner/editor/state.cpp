@@ -11,7 +11,7 @@
 #include "graphs/text/edit.h"
 #include "graphs/tools/descriptor_json.h"
 #include "graphs/values/convert.h"
-#include "graphs/values/scope.h"
+#include "runner/editor/hidden_parameters.h"
 #include "runner/editor/state_problems.h"
 #include "runner/editor/types_json.h"
 
@@ -94,6 +94,9 @@ class StateWriter {
     const std::vector<std::string> place =
         name.empty() ? std::vector<std::string>() : std::vector<std::string>{"graphs", name};
     ordered_json parameters = ordered_json::array();
+    const std::set<std::string> hidden =
+        name.empty() ? HiddenParameters(graphs_, values_).of_document(graph, inspected_.parameters)
+                     : std::set<std::string>();
     for (const GraphParameter& p : graph.parameters) {
       ordered_json entry = parameter_as_json(p);
       std::vector<std::string> path = place;
@@ -102,7 +105,7 @@ class StateWriter {
       if (name.empty())
         for (const GraphParameter& known : inspected_.parameters)
           if (known.param.name == p.param.name && known.value) entry["value"] = json_of_value(json_of(*known.value));
-      if (name.empty() && p.visible_if && !is_shown(p.param.name)) entry["hidden"] = true;
+      if (hidden.contains(p.param.name)) entry["hidden"] = true;
       parameters.push_back(std::move(entry));
     }
     out["parameters"] = std::move(parameters);
@@ -152,23 +155,6 @@ class StateWriter {
     out["params"] = std::move(params);
   }
 
-  /// What "visible_if" comes to with the values of now.
-  bool is_shown(const std::string& parameter) const {
-    std::vector<GraphParameter> parameters = inspected_.parameters;
-    const auto at = std::ranges::find(parameters, parameter, [](const GraphParameter& p) { return p.param.name; });
-    if (at == parameters.end() || !at->visible_if) return true;
-    std::vector<Problem> ignored;
-    Diagnostics diagnostics(ignored, "", "");
-    const JsonValue text = *at->visible_if;
-    const std::optional<Expression> condition = parse_expression(text, diagnostics);
-    if (!condition) return true;
-    GraphScope scope(parameters, {}, "", ignored);
-    if (!scope.lacking(*condition).nothing()) return true;
-    const std::optional<ParamValue> value = scope.evaluate(*condition, text, "", diagnostics);
-    const bool* shown = value ? std::get_if<bool>(&*value) : nullptr;
-    return !shown || *shown;
-  }
-
   ordered_json node(const std::string& level, std::vector<std::string> path, const JsonMember& m, const Subgraph& graph,
                     const LevelLayout& layout) {
     path.insert(path.end(), {"nodes", m.name});
@@ -187,6 +173,11 @@ class StateWriter {
     if (inner && graphs && graphs->find(type->text)) out["level"] = type->text;
     write_values(out, level, path, m, graph);
     if (!known) write_interface(out, inner);
+    if (inner)
+      if (const auto use = paths_.find(level); use != paths_.end())
+        if (const auto hidden = HiddenParameters(graphs_, values_).of_node(use->second + m.name, *inner);
+            !hidden.empty())
+          out["hidden"] = hidden;
     if (const auto at = layout.nodes.find(m.name); at != layout.nodes.end()) {
       out["x"] = at->second.x;
       out["y"] = at->second.y;
@@ -237,7 +228,7 @@ class StateWriter {
   const JsonValue& document_;
   const InspectedGraph& inspected_;
   std::map<std::string, LevelLayout> layout_;
-  std::map<std::string, const Params*> values_;
+  HiddenParameters::Values values_;
   std::map<std::string, std::string> paths_;  ///< by level
   std::vector<Preset> presets_;
   std::set<std::string> own_presets_;  ///< those in the document, rather than in the file beside it
@@ -260,6 +251,7 @@ ordered_json state_json(const DocumentSnapshot& d, const FoundProblems& found) {
                       {"readOnly", d.read_only},
                       {"onDisk", name_of(d.on_disk)},
                       {"text", d.text}};
+  if (!d.exists && d.on_disk == OnDisk::same && d.save_error.empty()) out["isNew"] = true;
   if (d.undo) out["undo"] = *d.undo;
   if (d.redo) out["redo"] = *d.redo;
   if (!d.save_error.empty()) out["saveError"] = d.save_error;

@@ -23,11 +23,12 @@ TextPatch patch_between(const std::string& before, const std::string& after) {
   return {begin, before.substr(begin, before.size() - end - begin), after.substr(begin, after.size() - end - begin)};
 }
 
-void UndoStack::add(const DocumentTexts& before, const DocumentTexts& after, const std::string& label,
-                    const std::string& key, Clock::time_point now) {
+void UndoStack::add(const DocumentTexts& before, const DocumentTexts& after, const std::string& label, const Key& key,
+                    Clock::time_point now) {
   steps_.resize(done_);
   DocumentTexts first = before;
-  if (!key.empty() && !steps_.empty() && steps_.back().key == key && now - steps_.back().time < merging_time) {
+  if (!key.text.empty() && !steps_.empty() && steps_.back().key == key &&
+      (key.is_gesture || now - steps_.back().time < merging_time)) {
     undo(first);
     steps_.pop_back();
   }

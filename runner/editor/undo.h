@@ -25,8 +25,14 @@ class UndoStack {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Steps with the same key, not empty, within a second of each other become one.
-  void add(const DocumentTexts& before, const DocumentTexts& after, const std::string& label, const std::string& key,
+  /// Steps with the same key, not empty, within a second of each other become one. So do those of one gesture, such as
+  /// a drag, however long it takes.
+  struct Key {
+    std::string text{};
+    bool is_gesture = false;
+    bool operator==(const Key&) const = default;
+  };
+  void add(const DocumentTexts& before, const DocumentTexts& after, const std::string& label, const Key& key,
            Clock::time_point now = Clock::now());
   /// Changes the texts; false if there is no step.
   bool undo(DocumentTexts& texts);
@@ -37,7 +43,8 @@ class UndoStack {
  private:
   struct Step {
     TextPatch graph, layout;
-    std::string label, key;
+    std::string label;
+    Key key;
     Clock::time_point time;
   };
   std::vector<Step> steps_;

@@ -1,5 +1,5 @@
 // Building graphs: by mouse alone, by keyboard alone, and undoing all of it.
-import { assert, Editor, scenario, stock } from './harness.mjs';
+import { assert, Editor, scenario, scenarioWithClipboard, stock } from './harness.mjs';
 
 const empty = '{\n  "terrazzo": 1,\n  "nodes": {}\n}\n';
 
@@ -88,7 +88,7 @@ scenario('build by keyboard', async () => {
   await e.saved(isBuilt, 'the graph is built');
 });
 
-scenario('edit a stock graph and undo everything', async () => {
+scenarioWithClipboard('edit a stock graph and undo everything', async () => {
   const text = stock('material'), e = await Editor.open(text), {page} = e;
   await e.press('f');
   await e.settle();

@@ -1,5 +1,5 @@
 // The canvas: selecting, wires that are bent or get a node, frames, groups, subgraphs' inputs and outputs.
-import { assert, Editor, scenario } from './harness.mjs';
+import { assert, Editor, scenario, scenarioWithClipboard } from './harness.mjs';
 
 const line = (positions = {}) => ({
   text: JSON.stringify({terrazzo: 1, nodes: {
@@ -122,7 +122,7 @@ scenario('drop a node on a wire', async () => {
   await e.saved(({nodes}) => !nodes.spare.image && nodes.soft.image === '@height', 'it is one step');
 });
 
-scenario('group, cut, find and the palette by help', async () => {
+scenarioWithClipboard('group, cut, find and the palette by help', async () => {
   const e = await open(line()), {page} = e;
   await e.press('f');
   await e.settle();

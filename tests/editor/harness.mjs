@@ -1,5 +1,6 @@
-// One Chromium for all scenarios, and a running `terrazzo edit` for each.
+// One Chromium for all scenarios, two at a time: they wait more than they work. A running `terrazzo edit` for each.
 import assert from 'node:assert/strict';
+import { AsyncLocalStorage } from 'node:async_hooks';
 import fs from 'node:fs';
 import path from 'node:path';
 import { spawn } from 'node:child_process';
@@ -16,35 +17,42 @@ export { assert };
 
 // Without a graphics card, drawing through an emulated one takes most of the time; no scenario needs WebGL.
 const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu']});
-// One page for all: a new one costs more than most scenarios.
-const context = await browser.newContext(), page = await context.newPage(), errors = [];
-await context.grantPermissions(['clipboard-read', 'clipboard-write']);
-page.on('pageerror', (error) => errors.push(error.stack ?? error.message));
-page.on('console', (message) => {
-  // Refused edits and a server that is away are answered by the page itself.
-  if (message.type() === 'error' && !/Failed to load resource/.test(message.text())) errors.push(message.text());
-});
-page.setDefaultTimeout(8000);
+const lanes = 2, laneOf = new AsyncLocalStorage();
+
+// One page for all scenarios of a lane: a new one costs more than most of them.
+async function newLane() {
+  const context = await browser.newContext(), page = await context.newPage(), errors = [];
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  page.on('pageerror', (error) => errors.push(error.stack ?? error.message));
+  page.on('console', (message) => {
+    // Refused edits and a server that is away are answered by the page itself.
+    if (message.type() === 'error' && !/Failed to load resource/.test(message.text())) errors.push(message.text());
+  });
+  page.setDefaultTimeout(10000);
+  return {context, page, errors, open: []};
+}
 
 const servers = new Set();
 process.on('exit', () => { for (const server of servers) server.kill('SIGKILL'); });
 
 let folders = 0;
 export class Editor {
-  /// A page that shows a graph of that text, in a folder of its own, which first holds what `prepare` writes into it.
+  /// A page that shows a graph of that text, or one that does not exist if it is null, in a folder of its own, which first holds what `prepare` writes into it.
   static async open(text, {args = [], prepare, layout, size = [1280, 800], dark = true} = {}) {
-    const editor = new Editor();
+    const editor = new Editor(), lane = laneOf.getStore(), {page} = lane;
+    lane.open.push(editor);
+    editor.errors = lane.errors;
     editor.folder = path.resolve(`graph-${++folders}`);
     fs.mkdirSync(editor.folder, {recursive: true});
     prepare?.(editor.folder);
     editor.file = path.join(editor.folder, 'graph.json');
-    fs.writeFileSync(editor.file, text);
+    if (text !== null) fs.writeFileSync(editor.file, text);
     if (layout) fs.writeFileSync(path.join(editor.folder, 'graph.layout.json'), layout);
     editor.args = args;
     await editor.start();
     editor.page = page;
-    editor.context = context;
-    errors.length = 0;
+    editor.context = lane.context;
+    lane.errors.length = 0;
     await page.setViewportSize({width: size[0], height: size[1]});
     await page.emulateMedia({colorScheme: dark ? 'dark' : 'light'});
     await page.goto(editor.address);
@@ -99,6 +107,13 @@ export class Editor {
   toast(text) { return this.page.locator('.toast', {hasText: text}).first().waitFor(); }
   async press(...keys) { for (const key of keys) await this.page.keyboard.press(key); }
   async type(text) { await this.page.keyboard.type(text); }
+  toCanvas() { return this.page.locator('#canvas').focus(); }
+  /// All nodes in sight, and the panel about this one.
+  async show(name) {
+    await this.press('f');
+    await this.settle();
+    await this.card(name).locator('.head').click();
+  }
   /// Until the canvas stands still: nothing moves, comes, goes or is selected any more.
   async settle() {
     const look = () => this.page.evaluate(() => document.querySelector('.svelte-flow__viewport')?.style.transform +
@@ -132,41 +147,49 @@ export class Editor {
   }
 
   async close() {
-    const found = [...errors];
-    await page.goto('about:blank');
+    const found = [...this.errors];
+    await this.page.goto('about:blank');
     if (servers.has(this.server)) await this.kill();
     assert.deepEqual(found, [], 'errors in the page');
   }
 }
 
 const scenarios = [];
+let clipboard = Promise.resolve();
 export const scenario = (name, run) => scenarios.push({name, run});
+/// The browser has one clipboard: of these only one is run at a time.
+export const scenarioWithClipboard = (name, run) => scenario(name, () => (clipboard = clipboard.catch(() => undefined).then(run)));
+
+async function runOne({name, run}, lane) {
+  const start = Date.now();
+  lane.open.length = 0;
+  try {
+    await run();
+    for (const editor of lane.open) await editor.close();
+    console.log(`${name}: ${((Date.now() - start) / 1000).toFixed(1)} s`);
+    return true;
+  } catch (error) {
+    console.log(`FAILED: ${name}: ${error.stack}`);
+    for (const [index, editor] of lane.open.entries()) {
+      if (process.env.EDITOR_TEST_PICTURES)
+        await lane.page.screenshot({path: path.join(process.env.EDITOR_TEST_PICTURES, `${name.replaceAll(' ', '-')}-${index}.png`)}).catch(() => {});
+      console.log(lane.errors.join('\n'));
+      await editor.close().catch(() => {});
+    }
+    return false;
+  }
+}
 
 /// Runs all, and ends the process: with 1 if one failed.
 export async function runAll(filter) {
+  const waiting = scenarios.filter(({name}) => !filter || name.includes(filter)), start = Date.now();
   let failed = 0;
-  for (const {name, run} of scenarios) {
-    if (filter && !name.includes(filter)) continue;
-    const start = Date.now(), open = [];
-    const plain = Editor.open;
-    Editor.open = async (...given) => { const editor = await plain.apply(Editor, given); open.push(editor); return editor; };
-    try {
-      await run();
-      for (const editor of open) await editor.close();
-      console.log(`${name}: ${((Date.now() - start) / 1000).toFixed(1)} s`);
-    } catch (error) {
-      ++failed;
-      console.log(`FAILED: ${name}: ${error.stack}`);
-      for (const [index, editor] of open.entries()) {
-        if (process.env.EDITOR_TEST_PICTURES)
-          await editor.page.screenshot({path: path.join(process.env.EDITOR_TEST_PICTURES, `${name.replaceAll(' ', '-')}-${index}.png`)}).catch(() => {});
-        console.log(errors.join('\n'));
-        await editor.close().catch(() => {});
-      }
-    } finally {
-      Editor.open = plain;
-    }
-  }
+  await Promise.all(Array.from({length: Math.min(lanes, waiting.length)}, async () => {
+    const lane = await newLane();
+    for (let next = waiting.shift(); next; next = waiting.shift())
+      if (!await laneOf.run(lane, () => runOne(next, lane))) ++failed;
+  }));
+  console.log(`all in ${((Date.now() - start) / 1000).toFixed(0)} s`);
   await browser.close();
   process.exit(failed ? 1 : 0);
 }

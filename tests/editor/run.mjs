@@ -5,5 +5,6 @@ import './living.mjs';
 import './looking.mjs';
 import './canvas.mjs';
 import './forms.mjs';
+import './shaping.mjs';
 
 await runAll(process.argv[5]);

@@ -48,6 +48,19 @@ NewGraph graph_for(const ExemplarFlags& exemplar, const fs::path& graph, const s
   throw GraphError(e.file(), std::move(problems));
 }
 
+/// A graph that does not exist begins empty. Only a name that says so is one: a folder or a picture may be misspelled.
+void begin_new(const EditFlags& flags) {
+  const fs::path graph = fs::absolute(flags.graph);
+  std::error_code missing;
+  if (graph.extension() != ".json" || graph.stem().empty())
+    throw UsageError(fmt::format("{} does not exist; a new graph's name ends in .json", flags.graph));
+  if (!fs::is_directory(graph.parent_path(), missing))
+    throw UsageError(fmt::format("{} does not exist, and there is no folder {} for a new graph", flags.graph,
+                                 graph.parent_path().string()));
+  if (flags.read_only) throw UsageError(fmt::format("{} does not exist, and --read-only writes nothing", flags.graph));
+  print_message("{} does not exist yet: it begins empty, and the first edit writes it\n", flags.graph);
+}
+
 /// The graph file to edit: the one given, or that of a folder of maps or a picture, which is written if there is none.
 /// Nullopt if the folder makes no graph; `exit_code` then says why.
 std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<bool>& cancelled, int& exit_code) {
@@ -55,9 +68,7 @@ std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<
   std::error_code missing;
   const bool is_picture = looks_like_image(given) && fs::is_regular_file(given, missing);
   if (!fs::is_directory(given, missing) && !is_picture) {
-    if (!fs::exists(given, missing))
-      throw UsageError(fmt::format("{} does not exist; `terrazzo new FOLDER -o {}` writes a graph for a folder of maps",
-                                   flags.graph, flags.graph));
+    if (!fs::exists(given, missing)) begin_new(flags);
     return given;
   }
   const fs::path exemplar = fs::canonical(given);
@@ -135,9 +146,10 @@ void add_edit_command(Command& program) {
   Command& command = program.add_command("edit", "Opens a graph in an editor in the browser");
   const auto flags = std::make_shared<EditFlags>();
   command
-      .add_option("GRAPH", &flags->graph,
-                  "The graph file; or a folder of maps, or a picture: its graph FOLDER.json is written beside it, if "
-                  "there is none")
+      .add_option(
+          "GRAPH", &flags->graph,
+          "The graph file; a .json that does not exist begins empty, and the first edit writes it. Or a folder of "
+          "maps, or a picture: its graph FOLDER.json is written beside it, if there is none")
       .required();
   command.add_option("--port", &flags->port, "The port to listen at, on this machine only; a free one if not given")
       .takes("N")

@@ -56,6 +56,24 @@ TEST_CASE("presets are made, changed, renamed and removed") {
   CHECK(removed == without_presets);
 }
 
+TEST_CASE("a parameter that is removed leaves no values behind") {
+  const std::string before =
+      after(without_presets, R"t({"op": "preset", "name": "late", "set": {"set": {"seed": 7, "size": 8}}},
+                                 {"op": "parameter", "level": "inner", "name": "tone", "set": {"type": "number"}},
+                                 {"op": "add", "type": "inner", "name": "use", "values": {"tone": 0.5}},
+                                 {"op": "preset", "name": "dark", "set": {"set": {"use.tone": 0.1, "size": 9}}})t");
+  const EditedText one =
+      edited(before, "/nowhere/wall.json", json_in(R"t([{"op": "parameter", "name": "seed", "set": null}])t"));
+  CHECK(one.taken == std::vector<std::string>{R"(the preset "late" no longer sets "seed")"});
+  CHECK(one.text.find("\"seed\": 7") == one.text.npos);
+  CHECK(one.text.find("\"size\": 8") != one.text.npos);
+  const EditedText two = edited(before, "/nowhere/wall.json",
+                                json_in(R"t([{"op": "parameter", "level": "inner", "name": "tone", "set": null}])t"));
+  CHECK(two.taken ==
+        std::vector<std::string>{R"("use" no longer sets "tone")", R"(the preset "dark" no longer sets "use.tone")"});
+  CHECK(two.text.find("tone") == two.text.npos);
+}
+
 TEST_CASE("presets that cannot be are refused") {
   const std::string text = after(without_presets, R"t({"op": "preset", "name": "a", "set": {"set": {"seed": 7}}},
     {"op": "preset", "name": "b", "set": {"set": {"seed": 8}}})t");

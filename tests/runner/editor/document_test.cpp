@@ -32,7 +32,7 @@ std::string get(const fs::path& file) {
 }
 
 ordered_json request(const std::string& edits, const std::string& label = "") {
-  ordered_json out = {{"base", 1}, {"edits", ordered_json::parse("[" + edits + "]")}};
+  ordered_json out = {{"edits", ordered_json::parse("[" + edits + "]")}};
   if (!label.empty()) out["label"] = label;
   return out;
 }

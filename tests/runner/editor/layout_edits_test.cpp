@@ -23,9 +23,7 @@ class LaidOut {
  public:
   explicit LaidOut(std::string text) : document_(folder_.path() / "g.json", std::move(text)) {}
 
-  void edit(const char* edits) {
-    document_.edit({{"base", 1}, {"edits", ordered_json::parse("[" + std::string(edits) + "]")}});
-  }
+  void edit(const char* edits) { document_.edit({{"edits", ordered_json::parse("[" + std::string(edits) + "]")}}); }
   void undo() { document_.undo(); }
   ordered_json level(const std::string& name = "") { return state_json(document_.snapshot())["levels"][name]; }
   std::map<std::string, std::pair<double, double>> places(const std::string& name = "") {
@@ -92,6 +90,42 @@ TEST_CASE("cards do not overlap") {
         CHECK_MESSAGE(are_apart, a["name"] << " and " << b["name"]);
       }
   }
+}
+
+TEST_CASE("a long chain goes on in rows") {
+  const auto shape_of = [](int count) {
+    std::string nodes = R"("n0": {"type": "pattern"})", last = "n0";
+    for (int i = 1; i < count; i++) {
+      const std::string name = "n" + std::to_string(i);
+      nodes += ", \"" + name + R"(": {"type": "crop", "material": "@)" + last + "\"}";
+      last = name;
+    }
+    LaidOut graph("{\"terrazzo\": 1, \"nodes\": {" + nodes + "}}");
+    double width = 0, height = 0;
+    for (const auto& [name, at] : graph.places()) {
+      width = std::max(width, at.first + 176);
+      height = std::max(height, at.second + 66);
+    }
+    return std::pair(width, height);
+  };
+  CHECK(shape_of(8).second < 120);  // a short one stays in its row
+  for (const int count : {12, 30, 80}) {
+    CAPTURE(count);
+    const auto [width, height] = shape_of(count);
+    CHECK(width < (count > 20 ? 4.5 : 7) * height);
+    CHECK(height < 1.5 * width);
+  }
+}
+
+TEST_CASE("the node of a group covers no other") {
+  LaidOut graph(R"({"terrazzo": 1, "nodes": {"a": {"type": "pattern"}, "b": {"type": "crop", "material": "@a"},
+    "c": {"type": "crop", "material": "@b"}, "d": {"type": "crop", "material": "@c"}}})");
+  graph.edit(R"({"op": "move", "positions": {"a": [0, 300], "b": [240, 0], "c": [480, 0], "d": [720, 0]}})");
+  graph.edit(R"({"op": "group", "nodes": ["b", "d"], "name": "part"})");
+  const auto places = graph.places();
+  CHECK(places.at("c") == std::pair(480.0, 0.0));
+  CHECK(places.at("part").first == 480);
+  CHECK(places.at("part").second >= 66);
 }
 
 TEST_CASE("a node that was ungrouped comes back where it was") {

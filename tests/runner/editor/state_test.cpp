@@ -136,6 +136,50 @@ TEST_CASE("problems are where they are in the document, and the rest of the stat
   CHECK(named(state["levels"][""]["nodes"], "exemplar")["shown"]["size"] == "128x64");
 }
 
+TEST_CASE("parameters without effect are hidden where a graph is used, and where they are only handed on") {
+  const std::string text = R"t({
+    "terrazzo": 1,
+    "parameters": {
+      "kind": {"type": "choice", "choices": ["plain", "fancy"], "default": "plain"},
+      "depth": {"type": "number", "default": 1},
+      "both": {"type": "number", "default": 2}
+    },
+    "nodes": {
+      "a": {"type": "inner", "mode": "$kind", "strength": "$depth", "width": "$both"},
+      "b": {"type": "inner", "mode": "fancy", "width": "$both"},
+      "c": {"type": "outer", "how": "plain"}
+    },
+    "graphs": {
+      "inner": {
+        "parameters": {
+          "mode": {"type": "choice", "choices": ["plain", "fancy"], "default": "plain"},
+          "strength": {"type": "number", "default": 1, "visible_if": "=mode == 'fancy'"},
+          "width": {"type": "number", "default": 1, "visible_if": "=mode == 'fancy'"}
+        },
+        "nodes": {"grey": {"type": "solid", "size": 8, "value": "=[strength / width]"}},
+        "outputs": {"image": "@grey"}
+      },
+      "outer": {
+        "parameters": {
+          "how": {"type": "choice", "choices": ["plain", "fancy"], "default": "fancy"},
+          "power": {"type": "number", "default": 1}
+        },
+        "nodes": {"part": {"type": "inner", "mode": "$how", "strength": "$power"}},
+        "outputs": {"image": "@part"}
+      }
+    }
+  })t";
+  const ordered_json top = state_of(text)["levels"][""];
+  CHECK(named(top["nodes"], "a")["hidden"] == ordered_json{"strength", "width"});
+  CHECK_FALSE(named(top["nodes"], "b").contains("hidden"));
+  CHECK(named(top["nodes"], "c")["hidden"] == ordered_json{"power"});
+  CHECK(named(top["parameters"], "depth")["hidden"] == true);
+  CHECK_FALSE(named(top["parameters"], "both").contains("hidden"));  // one of its uses has an effect
+  const ordered_json fancy = state_of(replaced(text, R"("default": "plain"})", R"("default": "fancy"})"))["levels"][""];
+  CHECK_FALSE(named(fancy["nodes"], "a").contains("hidden"));
+  CHECK_FALSE(named(fancy["parameters"], "depth").contains("hidden"));
+}
+
 TEST_CASE("odd documents have a state") {
   for (const char* text :
        {"", "3", "[]", "{}", "{\"nodes\": 3}", "{\"terrazzo\": 1, \"nodes\": {\"a\": 3, \"b\": {\"type\": 4}}}",

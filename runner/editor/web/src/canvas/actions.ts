@@ -1,9 +1,10 @@
 // What can be done with nodes and wires; keys, menus and drops all come here.
-import type { Edit, NodeType, Port } from '../state/protocol.ts';
+import type { Edit, GraphNode, NodeType, Port } from '../state/protocol.ts';
 import { canvas, focusCanvas, focusNode } from '../state/canvas.svelte.ts';
 import { session } from '../state/session.svelte.ts';
 import { ui, type PaletteRequest, type Point } from '../state/ui.svelte.ts';
 import { nudgeBend, removeBend } from './bends.ts';
+import { bendEdits, isOn } from './drag.ts';
 import { firstFit, inputPort, inputsId, newPort, outputsId, reference, uniqueName, whyNot, type End } from './fit.ts';
 import { cardHeight, cardWidth, wireOf } from './model.ts';
 
@@ -189,11 +190,12 @@ export function align(how: Alignment) {
 
 export function nudge(dx: number, dy: number) {
   if (nudgeBend(dx, dy)) return;
-  const frames = session.level.frames.filter((f) => canvas.selectedFrames.includes(f.id));
-  const isInside = (n: {x: number; y: number}) => frames.some((f) => n.x >= f.x && n.x < f.x + f.width && n.y >= f.y && n.y < f.y + f.height);
+  const chosen = session.level.frames.filter((f) => canvas.selectedFrames.includes(f.id));
+  const frames = session.level.frames.filter((f) => chosen.some((c) => c === f || isOn(c, f, true)));
+  const isInside = (n: GraphNode) => chosen.some((f) => isOn(f, {x: n.x, y: n.y, width: cardWidth, height: cardHeight(n, n.pinned)}, false));
   const nodes = session.level.nodes.filter((n) => canvas.selected.includes(n.name) || isInside(n));
   const positions = Object.fromEntries(nodes.map((n) => [n.name, [n.x + dx, n.y + dy]]));
-  const edits: Edit[] = nodes.length ? [{op: 'move', positions}] : [];
+  const edits: Edit[] = nodes.length ? [{op: 'move', positions}, ...bendEdits(new Set(nodes.map((n) => n.name)), dx, dy)] : [];
   for (const {id, ...f} of frames) edits.push({op: 'frame', id, set: {...f, x: f.x + dx, y: f.y + dy}});
   if (edits.length) void session.edit(frames.length ? 'move a frame' : `move ${count(canvas.selected)}`, ...edits);
 }

@@ -2,20 +2,46 @@
 import type { Edit } from '../state/protocol.ts';
 import { canvas } from '../state/canvas.svelte.ts';
 import { session } from '../state/session.svelte.ts';
+import type { Point } from '../state/ui.svelte.ts';
 import { firstFit, outputPort } from './fit.ts';
-import { cardWidth, keyOfWire, rectangle, wireOf, type CanvasNode } from './model.ts';
+import { cardWidth, keyOfWire, rectangle, wireOf, type Box, type CanvasNode } from './model.ts';
 
-let carried: {frame: string; from: {x: number; y: number}; nodes: {id: string; x: number; y: number}[]}[] = [];
+interface Carried {frame: string; from: Point; nodes: {id: string; x: number; y: number}[]}
+let carried: Carried[] = [];
+/// Bends of wires whose ends both move, and where their sources were.
+let following: {edge: string; source: string; from: Point; bends: Point[]}[] = [];
+
+/// Whether something stands on a frame: a card with its middle, another frame with all of it.
+export function isOn(frame: Box, {x, y, width, height}: Box, isFrame: boolean): boolean {
+  if (isFrame) return x >= frame.x && y >= frame.y && x + width <= frame.x + frame.width && y + height <= frame.y + frame.height;
+  const across = x + width / 2, down = y + height / 2;
+  return across > frame.x && across < frame.x + frame.width && down > frame.y && down < frame.y + frame.height;
+}
 
 export function carry(nodes: CanvasNode[]) {
-  const dragged = new Set(nodes.map((n) => n.id));
-  carried = nodes.filter((n) => n.type === 'frame').map((f) => ({
-    frame: f.id, from: {...f.position},
-    nodes: canvas.nodes.filter((n) => n.type === 'card' && !dragged.has(n.id)).filter((n) => {
-      const x = n.position.x + (n.measured?.width ?? 0) / 2, y = n.position.y + (n.measured?.height ?? 0) / 2;
-      return x > f.position.x && x < f.position.x + (f.width ?? 0) && y > f.position.y && y < f.position.y + (f.height ?? 0);
-    }).map((n) => ({id: n.id, ...n.position})),
+  const taken = new Set(nodes.map((n) => n.id));
+  carried = nodes.filter((n) => n.type === 'frame').map((f) => {
+    const inside = canvas.nodes.filter((n) => n.type !== 'ports' && !taken.has(n.id) && isOn(rectangle(f), rectangle(n), n.type === 'frame'));
+    for (const n of inside) taken.add(n.id);
+    return {frame: f.id, from: {...f.position}, nodes: inside.map((n) => ({id: n.id, ...n.position}))};
+  });
+  following = bentBetween(taken).map((edge) => ({
+    edge: edge.id, source: edge.source, from: {...canvas.nodes.find((n) => n.id === edge.source)!.position}, bends: edge.data!.bends}));
+}
+
+/// The bent wires whose ends are both among these.
+const bentBetween = (ids: Set<string>) => canvas.edges.filter((e) => e.data!.bends.length && ids.has(e.source) && ids.has(e.target));
+
+export const bendEdits = (moved: Set<string>, dx = 0, dy = 0): Edit[] => bentBetween(moved).map((edge) =>
+  ({op: 'bend', wire: keyOfWire(edge), points: edge.data!.bends.map(({x, y}) => [Math.round(x + dx), Math.round(y + dy)])}));
+
+function moveBends() {
+  if (!following.length) return;
+  const bends = new Map(following.map((f) => {
+    const now = canvas.nodes.find((n) => n.id === f.source)?.position ?? f.from;
+    return [f.edge, f.bends.map(({x, y}) => ({x: x + now.x - f.from.x, y: y + now.y - f.from.y}))];
   }));
+  canvas.edges = canvas.edges.map((e) => bends.has(e.id) ? {...e, data: {...e.data!, bends: bends.get(e.id)!}} : e);
 }
 
 export function hover(nodes: CanvasNode[]) {
@@ -25,6 +51,7 @@ export function hover(nodes: CanvasNode[]) {
     const places = new Map(inside.map((n) => [n.id, {x: n.x + now.x - from.x, y: n.y + now.y - from.y}]));
     canvas.nodes = canvas.nodes.map((n) => places.has(n.id) ? {...n, position: places.get(n.id)!} : n);
   }
+  moveBends();
   canvas.dropWire = nodes.length === 1 && nodes[0]!.type === 'card' ? wireUnder(nodes[0]!) : null;
 }
 
@@ -75,31 +102,24 @@ function makeRoom(dropped: CanvasNode, wire: string, positions: Record<string, [
   return edits;
 }
 
-/// Bends go with a wire whose ends both move.
-function movedBends(moved: Set<string>): Edit[] {
-  return canvas.edges.flatMap((edge): Edit[] => {
-    const {bends} = edge.data!, source = session.node(edge.source), now = canvas.nodes.find((n) => n.id === edge.source)?.position;
-    if (!bends.length || !source || !now || !moved.has(edge.source) || !moved.has(edge.target)) return [];
-    return [{op: 'bend', wire: keyOfWire(edge), points: bends.map(({x, y}) => [Math.round(x + now.x - source.x), Math.round(y + now.y - source.y)])}];
-  });
-}
-
 export function drop(nodes: CanvasNode[]) {
   const edits: Edit[] = [], positions: Record<string, [number, number]> = {};
-  const moved = new Set([...nodes.filter((n) => n.type === 'card' || n.type === 'ports').map((n) => n.id), ...carried.flatMap((c) => c.nodes.map((n) => n.id))]);
+  const moved = new Set([...nodes.map((n) => n.id), ...carried.flatMap((c) => c.nodes.map((n) => n.id))]);
   for (const node of canvas.nodes)
-    if (moved.has(node.id)) positions[node.id] = [Math.round(node.position.x), Math.round(node.position.y)];
+    if (moved.has(node.id) && node.type !== 'frame') positions[node.id] = [Math.round(node.position.x), Math.round(node.position.y)];
   const names = Object.keys(positions), into = canvas.dropWire;
   if (into && nodes[0]) edits.push(...makeRoom(nodes[0], into, positions));
-  if (names.length) edits.push({op: 'move', positions}, ...movedBends(moved));
-  for (const node of nodes) if (node.type === 'frame') {
+  moveBends();
+  if (names.length) edits.push({op: 'move', positions}, ...bendEdits(moved));
+  for (const node of canvas.nodes) if (node.type === 'frame' && moved.has(node.id)) {
     const {id, ...frame} = node.data.frame;
     edits.push({op: 'frame', id, set: {...frame, x: Math.round(node.position.x), y: Math.round(node.position.y)}});
   }
   if (into && nodes[0]) edits.push({op: 'insert', node: nodes[0].id, wire: wireOf(into)});
   canvas.dropWire = null;
   carried = [];
-  const label = into ? `put ${nodes[0]!.id} into a wire` : names.length === 1 ? `move ${names[0]}` : `move ${names.length} nodes`;
+  following = [];
+  const label = into ? `put ${nodes[0]!.id} into a wire` : nodes.some((n) => n.type === 'frame') ? 'move a frame' : names.length === 1 ? `move ${names[0]}` : `move ${names.length} nodes`;
   // A refused move goes back to where the document has it.
   if (edits.length) void session.edit(label, ...edits).then((done) => { if (!done) canvas.take(session.levelName, true); });
 }

@@ -8,9 +8,13 @@ import { bendSelected, nextBend } from './bends.ts';
 import { bendMenu, frameMenu, look, nodeMenu, paneMenu, wireMenu } from './menus.ts';
 import { cardHeight, wireOf } from './model.ts';
 
-// Left and right go along wires, up and down to the nearest node; without wires all four do.
-function walk(key: string) {
-  const {level} = session, from = canvas.current ?? canvas.selected[0];
+// The node that was walked to last: of several selected ones, the one to go on from.
+let reached = '';
+
+// Left and right go along wires, up and down to the nearest node; without wires all four do. With Shift, nodes on the way
+// stay selected.
+function walk(key: string, isExtended: boolean) {
+  const {level} = session, from = canvas.current ?? (canvas.selected.includes(reached) ? reached : canvas.selected[0]);
   const node = level.nodes.find((n) => n.name === from);
   if (!node) {
     const first = [...level.nodes].sort((a, b) => a.x - b.x || a.y - b.y)[0];
@@ -29,7 +33,9 @@ function walk(key: string) {
   const candidates = along.length ? along : level.nodes.filter((n) => n !== node && distance(n) < Infinity);
   const measure = along.length ? (n: typeof node) => Math.abs(middle(n) - middle(node)) + Math.abs(n.x - node.x) * 0.1 : distance;
   const next = candidates.sort((a, b) => measure(a) - measure(b))[0];
-  if (next) canvas.go(next.name);
+  if (!next) return;
+  reached = next.name;
+  canvas.go(next.name, isExtended ? canvas.selected : []);
 }
 
 // The wires of the node in turn, so that each can be removed.
@@ -134,7 +140,7 @@ export function onkeydown(event: KeyboardEvent) {
     const [x, y] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key]!;
     const step = event.shiftKey ? 64 : 16;
     if (event.altKey && session.readOnly) return;
-    return event.altKey ? act.nudge(x! * step, y! * step) : walk(event.key);
+    return event.altKey ? act.nudge(x! * step, y! * step) : walk(event.key, event.shiftKey);
   }
   if (event.altKey || (event.key === 'Tab' && event.shiftKey)) return;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, known = plain[key];

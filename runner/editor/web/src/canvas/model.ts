@@ -17,7 +17,9 @@ export const cardHeight = (node: GraphNode, thumbnail: boolean) =>
   headHeight + portHeight * Math.max(node.inputs.length, node.outputs.length) + 6 + lineHeight +
   (thumbnail ? thumbnailHeight : 0);
 
-export function rectangle(node: CanvasNode) {
+export interface Box extends Point {width: number; height: number}
+
+export function rectangle(node: CanvasNode): Box {
   const {width = cardWidth, height = node.height ?? node.initialHeight ?? 80} = node.measured ?? {width: node.width};
   return {...node.position, width, height};
 }

@@ -6,7 +6,7 @@ const telling = ['path', 'kind', 'preset', 'map', 'size', 'mode', 'basis', 'valu
 
 export function spelled(value: unknown): string {
   if (typeof value === 'string') return value;
-  if (Array.isArray(value)) return value.map(spelled).join(' × ');
+  if (Array.isArray(value)) return value.map(spelled).join(value.length === 2 ? ' × ' : ', ');
   if (value !== null && typeof value === 'object')
     return Object.entries(value).map(([key, item]) => `${key} ${spelled(item)}`).join(', ');
   return typeof value === 'number' ? String(Math.round(value * 1e6) / 1e6) : String(value ?? '');

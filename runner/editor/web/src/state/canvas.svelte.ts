@@ -1,5 +1,5 @@
 // The canvas as other parts of the page see it: what is selected, and where to look.
-import { edgesOf, nodesOf, wireOf, type CanvasNode, type WireEdge } from '../canvas/model.ts';
+import { edgesOf, nodesOf, rectangle, wireOf, type CanvasNode, type WireEdge } from '../canvas/model.ts';
 import type { Point } from './ui.svelte.ts';
 import { session } from './session.svelte.ts';
 
@@ -20,6 +20,9 @@ class Canvas {
   dropWire = $state<string | null>(null);  // the wire that a dragged node would be put into
 
   pickedBend = $state.raw<{wire: string; index: number} | null>(null);
+
+  /// What wires that go back lead around.
+  boxes = $derived(this.nodes.filter((n) => n.type !== 'frame').map(rectangle));
 
   selected = $derived(this.nodes.filter((n) => n.selected && n.type === 'card').map((n) => n.id));
   selectedFrames = $derived(this.nodes.filter((n) => n.selected && n.type === 'frame').map((n) => n.id.slice(6)));
@@ -42,9 +45,9 @@ class Canvas {
     this.edges = this.edges.map((e) => !!e.selected === lines.has(e.id) ? e : {...e, selected: lines.has(e.id)});
   }
 
-  /// Selects a node, moves the view there if it is outside, and puts the keyboard's focus on it.
-  go(name: string) {
-    this.select([name]);
+  /// Selects a node, besides others, moves the view there if it is outside, and puts the keyboard's focus on it.
+  go(name: string, besides: string[] = []) {
+    this.select([...besides, name]);
     this.pane?.reveal(name);
     requestAnimationFrame(() => focusNode(name));
   }

@@ -14,6 +14,7 @@ export interface Wire {port: string; index: number; node: string; output: string
 export interface GraphNode {
   name: string; type: string; known: boolean; category: string; summary: string; comment?: string; mute: boolean | string;
   foreach?: unknown; level?: string; inputs: Port[]; outputs: Port[]; params: Param[]; values: Record<string, unknown>;
+  hidden?: string[];            // parameters of a graph that have no effect now
   shown: Record<string, string>; wires: Wire[]; x: number; y: number; pinned: boolean;
 }
 
@@ -36,7 +37,7 @@ export interface Problem {
 }
 
 export interface DocumentState {
-  revision: number; file: {name: string; folder: string}; saved: boolean; readOnly: boolean;
+  revision: number; file: {name: string; folder: string}; saved: boolean; isNew?: boolean; readOnly: boolean;
   onDisk: 'same' | 'changed' | 'gone'; text: string; broken?: {line: number; column: number; message: string};
   levels: Record<string, Level>; problems: Problem[]; undo?: string; redo?: string; saveError?: string;
   conflict?: string;  // what was changed both here and on the disk

@@ -16,6 +16,8 @@ class Runs {
   /// By level and node, the newest of each output, map and resolution.
   pictures = new SvelteMap<string, Picture[]>();
   looked = $state.raw<Looked | null>(null);
+  /// What a histogram is wanted of.
+  measured = $state.raw<Looked | null>(null);
   map = $state<string | undefined>();
   full = $state(false);
 
@@ -68,7 +70,7 @@ class Runs {
   /// Tells the program which pictures this tab wants: `also` besides those pinned and looked at.
   show(side: number, also: Looked[]) {
     const pinned = Object.entries(session.document?.levels ?? {}).flatMap(([level, {nodes}]) =>
-      nodes.filter((node) => node.pinned).map((node) => ({level, node: node.name}))).concat(also);
+      nodes.filter((node) => node.pinned).map((node) => ({level, node: node.name}))).concat(also, this.measured ?? []);
     const looked = this.looked ? {...this.looked, ...(this.map ? {map: this.map} : {})} : undefined;
     // A lost connection has its own banner; pictures are asked for again after it.
     void ask('show', {tab, pinned, looked, side, full: this.full}).catch(() => undefined);

@@ -1,6 +1,9 @@
 // The document as the program last told it, the connection, and what is asked of the program.
 import { ask, askTypes, Refused, Unreachable, type DocumentState, type Edit, type GraphNode, type Level, type NodeType } from './protocol.ts';
 
+/// What a step of undo is called. Edits with the same gesture, such as a drag, are one step.
+export type StepOfUndo = string | {label: string; gesture: string};
+
 export interface Toast {id: number; text: string; kind: 'error' | 'info'}
 
 const noLevel: Level =
@@ -79,9 +82,9 @@ class Session {
   }
 
   /// Names of added nodes, or null if the edits were refused; the reason is shown.
-  async edit(label: string, ...edits: Edit[]): Promise<string[] | null> {
+  async edit(step: StepOfUndo, ...edits: Edit[]): Promise<string[] | null> {
     try {
-      return await this.tryEdit(label, ...edits);
+      return await this.tryEdit(step, ...edits);
     } catch (error) {
       this.complain(error);
       return null;
@@ -89,11 +92,11 @@ class Session {
   }
 
   /// The same, but throws what the program refused.
-  async tryEdit(label: string, ...edits: Edit[]): Promise<string[]> {
+  async tryEdit(step: StepOfUndo, ...edits: Edit[]): Promise<string[]> {
     if (this.readOnly) throw new Refused('This graph is shown read-only.', 403);
-    const level = this.levelName;
+    const level = this.levelName, {label, gesture} = typeof step === 'string' ? {label: step, gesture: ''} : step;
     const answer = await ask<{revision: number; names?: string[]; taken?: string[]}>('edit', {
-      base: this.document?.revision ?? 0, label, edits: edits.map((edit) => ({level, ...edit})),
+      base: this.document?.revision ?? 0, label, tab, ...(gesture ? {gesture} : {}), edits: edits.map((edit) => ({level, ...edit})),
     });
     // What else went away with what was removed.
     if (answer.taken?.length) this.say(answer.taken.join('\n'));
