@@ -47,13 +47,14 @@ guide/out/embedding/embedding job.json "$scratch/by-program" "$scratch/cache" >s
 diff -r by-command by-program || complain "the command line and the program made different files"
 
 # The Debian package says what it needs, and runs from where it is unpacked.
-package=$(find guide/out/package -maxdepth 1 -name '*.deb')
+cpack --config "$build/CPackConfig.cmake" -B package >said 2>&1 || complain "cpack failed: $(tail -3 said)"
+package=$(find package -maxdepth 1 -name '*.deb')
 dpkg-deb -f "$package" Depends >depends
 for library in libopenimageio libopencolorio libtbb; do grep -q $library depends || complain "it does not depend on $library"; done
 dpkg-deb -x "$package" root
 root/usr/bin/terrazzo synth by-command -o unpacked --size 64x64 --quality draft --format exr --no-cache --progress none 2>said ||
   complain "the unpacked program does not run: $(cat said)"
-for file in man/man1/terrazzo-cache-gc.1 bash-completion/completions/terrazzo zsh/vendor-completions/_terrazzo; do
+for file in man/man1/terrazzo-cache-gc.1.gz bash-completion/completions/terrazzo zsh/vendor-completions/_terrazzo; do
   test -s root/usr/share/$file || complain "the package lacks $file"
 done
 

@@ -37,6 +37,14 @@ completes 'white wall.json' run wh
 completes 'wall.json' run --params wa
 completes '' run --memory wa
 completes 'verify' cache ver
+completes 'stock:inpaint' run stock:inp
+completes 'stock:inpaint' draw stock:inp
+completes 'make_tileable' new --like make_t
+# As bash splits words, at colons.
+completes 'inpaint' run stock : inp
+completes 'magnify\nmake_tileable\nmasked\nmaterial\nmix' run stock : m
+[ "$(COMP_WORDS=(terrazzo run stock :) COMP_CWORD=3; _terrazzo; echo "${#COMPREPLY[@]}")" -gt 10 ] || complain "stock: completes to little"
+completes 'wall.json' check wall.json
 
 for shell in zsh fish; do
   "$program" completion $shell >completion.$shell
@@ -46,6 +54,11 @@ for shell in zsh fish; do
     echo "$shell is not installed: its script was not read by it"
   fi
 done
+grep -q "stock:inpaint" completion.fish || complain "fish gets no stock graphs"
+grep -q 'stock\\:inpaint' completion.zsh || complain "zsh gets no stock graphs"
+if command -v fish >/dev/null; then
+  [ "$(fish -c 'source completion.fish; complete -C "terrazzo run stock:inp"')" = stock:inpaint ] || complain "fish completes no stock graph"
+fi
 grep -q -- "-l progress -x -a 'auto bar plain json none'" completion.fish || complain "fish gets no choices"
 status=0
 "$program" completion tcsh >said 2>&1 || status=$?

@@ -7,6 +7,16 @@
 
 namespace terrazzo {
 
+namespace {
+
+constexpr std::string_view light_shows = "light that was baked in shows";
+
+}  // namespace
+
+bool is_about_light(std::string_view message) {
+  return message.find(light_shows) != message.npos;
+}
+
 std::vector<std::string> lint_of_colour(const std::string& subject, const std::filesystem::path& file) {
   std::vector<std::string> out;
   try {
@@ -18,9 +28,9 @@ std::vector<std::string> lint_of_colour(const std::string& subject, const std::f
           subject, 100 * found.one_colour));
     if (found.is_lit_from_a_side())
       out.push_back(
-          fmt::format("{}: the exemplar is {:.0f} % brighter at the {} than at the {}: light that was baked in shows "
-                      "as blotches in a result. A photograph in flat light, or a filter that evens it out, helps",
-                      subject, 100 * found.brightening, found.bright_side, found.dark_side));
+          fmt::format("{}: the exemplar is {:.0f} % brighter at the {} than at the {}: {} as blotches in a result. The "
+                      "node \"delight\" takes it out; a photograph in flat light is better",
+                      subject, 100 * found.brightening, found.bright_side, found.dark_side, light_shows));
     if (found.lone.is_seen())
       out.push_back(
           fmt::format("{}: the exemplar shows something around ({}, {}) only once; a result repeats it, and the eye "

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace terrazzo {
@@ -10,5 +11,8 @@ namespace terrazzo {
 /// from one side, or if it shows something only once. Each message begins with `subject`. Reads the file and ignores
 /// errors in it.
 std::vector<std::string> lint_of_colour(const std::string& subject, const std::filesystem::path& file);
+
+/// Whether such a warning is about light, which a "delight" node behind takes out.
+bool is_about_light(std::string_view message);
 
 }  // namespace terrazzo

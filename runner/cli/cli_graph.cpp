@@ -7,6 +7,7 @@
 #include "core/file/file_io.h"
 #include "core/file/private_folder.h"
 #include "graphs/text/read_document.h"
+#include "graphs/text/stock_graphs.h"
 #include "graphs/tools/pack.h"
 #include "graphs/tools/reference.h"
 #include "runner/cache/cache.h"
@@ -85,7 +86,14 @@ std::vector<std::string> shown_warnings(const std::string& graph, const std::vec
 void add_graph_argument(Command& command, GraphFlags& flags) {
   command.add_option("GRAPH", &flags.graph, "The graph file; stock:NAME for one that comes with the program")
       .required()
-      .takes("FILE.json");
+      .takes("FILE.json")
+      .suggests(stock_names(stock_prefix));
+}
+
+std::vector<std::string> stock_names(std::string_view prefix) {
+  std::vector<std::string> out;
+  for (const StockGraph& g : stock_graphs()) out.push_back(fmt::format("{}{}", prefix, g.name));
+  return out;
 }
 
 void add_value_flags(Command& command, GraphFlags& flags) {

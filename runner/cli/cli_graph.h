@@ -39,6 +39,8 @@ struct GraphFlags {
 /// Formats the warnings about a graph; at most the first few.
 std::vector<std::string> shown_warnings(const std::string& graph, const std::vector<Problem>& warnings);
 
+/// The names of all stock graphs, for completion; `prefix` before each.
+std::vector<std::string> stock_names(std::string_view prefix = "");
 /// The argument GRAPH.
 void add_graph_argument(Command& command, GraphFlags& flags);
 /// --set, --preset and --params.

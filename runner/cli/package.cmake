@@ -17,10 +17,19 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME terrazzo)
 set(CPACK_PACKAGE_CONTACT "The terrazzo developers <terrazzo@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "more PBR material from a small one: example-based texture synthesis")
+set(CPACK_PACKAGE_DESCRIPTION "terrazzo makes more material out of a small one: from the maps of a
+ PBR material, or from a photograph, a material of any size that does not
+ repeat, with all maps aligned to the pixel. It has a graph editor for the
+ browser, and writes the files of engines, glTF, MaterialX and USD.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/runner/cli/package_debian.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # for programs that link the library
+file(WRITE ${CMAKE_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/triggers)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
 include(CPack)

@@ -13,6 +13,7 @@
 #include "core/image/image_limits.h"
 #include "core/image_io/image_file.h"
 #include "graphs/document/forecasts.h"
+#include "nodes/common/exemplar_lint.h"
 #include "runner/plan/memory_advice.h"
 #include "runner/plan/plan_shapes.h"
 
@@ -268,6 +269,19 @@ std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
   return std::move(problems.of_nodes);
 }
 
+namespace {
+
+/// Whether a node that takes out light reads this one.
+bool is_delighted(const Graph& graph, const GraphNode& node) {
+  return std::ranges::any_of(graph.nodes, [&](const GraphNode& reader) {
+    if (reader.type->name != "delight") return false;
+    const auto wires = reader.inputs.find("material");
+    return wires != reader.inputs.end() && wires->second.front().node == node.name;
+  });
+}
+
+}  // namespace
+
 std::vector<Problem> lint_of(const Graph& graph, const Task& task) {
   const CurrentTask working(task);
   std::vector<Problem> out;
@@ -287,6 +301,7 @@ std::vector<Problem> lint_of(const Graph& graph, const Task& task) {
     } catch (const Error& e) {
       messages = {e.what()};
     }
+    if (is_delighted(graph, node)) std::erase_if(messages, is_about_light);
     for (const std::string& message : messages) {
       // The place of the quoted parameter or port at the beginning of the message.
       const size_t end = message.find('"', 1);

@@ -26,7 +26,8 @@ struct CommandOption {
 
   /// The placeholder of its value, "FILE.json". That of a path begins with FILE, DIR or PATH.
   std::optional<std::string> value_name{};
-  std::vector<std::string> choices{};  ///< the allowed values, if they are few
+  std::vector<std::string> choices{};      ///< the allowed values, if they are few
+  std::vector<std::string> suggestions{};  ///< values for completion, among others
   std::optional<std::pair<int, int>> limits{};
   std::function<std::string(const std::string&)> check{};  ///< returns an error message, or an empty text
   std::vector<std::string> excludes{}, needs{};            ///< names of other options
@@ -50,6 +51,7 @@ struct CommandOption {
   /// May be given several times, each time with one value.
   CommandOption& repeated() { return is_repeated = true, *this; }
   CommandOption& one_of(std::vector<std::string> all) { return choices = std::move(all), *this; }
+  CommandOption& suggests(std::vector<std::string> some) { return suggestions = std::move(some), *this; }
   CommandOption& any_case() { return ignores_case = true, *this; }
   CommandOption& from_to(int least, int most) { return limits = std::pair(least, most), *this; }
   CommandOption& not_negative() { return is_not_negative = true, *this; }

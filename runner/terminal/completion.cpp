@@ -21,6 +21,19 @@ bool takes_files(const CommandOption& o) {
   return o.is_path() || o.names == "GRAPH";
 }
 
+/// Words that complete a command's arguments besides files.
+std::string suggested_arguments(const Command& c) {
+  std::vector<std::string> words;
+  for (const CommandOption& o : c.options)
+    if (o.is_argument()) words.insert(words.end(), o.suggestions.begin(), o.suggestions.end());
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+/// The words that complete an option's value: its only values, or some of them.
+std::string suggested_values(const CommandOption& o) {
+  return fmt::format("{}", fmt::join(o.choices.empty() ? o.suggestions : o.choices, " "));
+}
+
 /// The data for bash on each command: subcommands, options, and options with values.
 void add_to_bash(const Command& c, std::string& tables) {
   std::vector<std::string> options;
@@ -29,11 +42,14 @@ void add_to_bash(const Command& c, std::string& tables) {
       options.push_back(n);
       if (!o.takes_what().empty())
         tables += fmt::format("_terrazzo_values[{}]={}\n", shell_word(c.path + " " + n),
-                              shell_word(o.choices.empty() ? (takes_files(o) ? "=files" : "=text")
-                                                           : fmt::format("{}", fmt::join(o.choices, " "))));
+                              shell_word(!suggested_values(o).empty() ? suggested_values(o)
+                                         : takes_files(o)             ? "=files"
+                                                                      : "=text"));
     }
   tables += fmt::format("_terrazzo_commands[{}]={}\n", shell_word(c.path),
                         shell_word(fmt::format("{}", fmt::join(c.command_names(), " "))));
+  if (const std::string words = suggested_arguments(c); !words.empty())
+    tables += fmt::format("_terrazzo_arguments[{}]={}\n", shell_word(c.path), shell_word(words));
   tables += fmt::format("_terrazzo_options[{}]={}\n", shell_word(c.path),
                         shell_word(fmt::format("{}", fmt::join(options, " "))));
   for (const Command& sub : c.commands) add_to_bash(sub, tables);
@@ -43,7 +59,7 @@ std::string for_bash(const Command& program) {
   std::string tables;
   add_to_bash(program, tables);
   return "# Completion of terrazzo for bash, made by `terrazzo completion bash`.\n"
-         "declare -A _terrazzo_commands _terrazzo_options _terrazzo_values\n" +
+         "declare -A _terrazzo_commands _terrazzo_options _terrazzo_values _terrazzo_arguments\n" +
          tables + R"(
 _terrazzo() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} path=terrazzo word i
@@ -63,8 +79,17 @@ _terrazzo() {
   elif [[ -n ${_terrazzo_commands[$path]:-} ]]; then
     mapfile -t COMPREPLY < <(compgen -W "${_terrazzo_commands[$path]:-}" -- "$cur")
   else
-    compopt -o filenames 2>/dev/null || true
-    mapfile -t COMPREPLY < <(compgen -f -- "$cur")
+    # Bash takes a colon for the end of a word: what comes before it is there already.
+    local before= words=${_terrazzo_arguments[$path]:-}
+    [[ $cur == : ]] && before=$prev: cur=
+    [[ $prev == : ]] && before=${COMP_WORDS[COMP_CWORD-2]}:
+    if [[ -n $words && $before$cur == *:* ]]; then
+      mapfile -t COMPREPLY < <(compgen -W "$words" -- "$before$cur")
+      COMPREPLY=("${COMPREPLY[@]#"$before"}")
+    else
+      compopt -o filenames 2>/dev/null || true
+      mapfile -t COMPREPLY < <(compgen -f -- "$cur"; [[ -n $cur ]] && compgen -W "$words" -- "$cur")
+    fi
   fi
 }
 complete -F _terrazzo terrazzo
@@ -91,13 +116,16 @@ void add_to_zsh(const Command& c, std::string& functions) {
   std::string arguments;
   for (const CommandOption& o : c.options) {
     const std::string what =
-        o.choices.empty() ? (takes_files(o) ? "_files" : " ") : fmt::format("({})", fmt::join(o.choices, " "));
+        suggested_values(o).empty() ? (takes_files(o) ? "_files" : " ") : fmt::format("({})", suggested_values(o));
     const std::string takes = o.takes_what().empty() ? "" : fmt::format(":{}:{}", for_zsh(o.takes_what()), what);
     for (const std::string& n : o.spellings())
       arguments += " \\\n    " + shell_word(fmt::format("*{}[{}]{}", n, for_zsh(brief(o.help)), takes));
   }
   if (c.commands.empty()) {
-    functions += fmt::format("{}() {{\n  _arguments{} \\\n    '*:file:_files'\n}}\n", function_of(c.path), arguments);
+    const std::string words = suggested_arguments(c);
+    const std::string files = words.empty() ? "_files" : " _files_and " + for_zsh(words);
+    functions += fmt::format("{}() {{\n  _arguments{} \\\n    {}\n}}\n", function_of(c.path), arguments,
+                             shell_word("*:file:" + files));
     return;
   }
   for (const Command& sub : c.commands) add_to_zsh(sub, functions);
@@ -112,7 +140,7 @@ void add_to_zsh(const Command& c, std::string& functions) {
 }
 
 std::string zsh_script(const Command& program) {
-  std::string functions;
+  std::string functions = "_files_and() {\n  _files\n  compadd -- \"$@\"\n}\n";
   add_to_zsh(program, functions);
   return "#compdef terrazzo\n# Completion of terrazzo for zsh, made by `terrazzo completion zsh`.\n" + functions +
          "_terrazzo \"$@\"\n";
@@ -132,9 +160,11 @@ void add_to_fish(const Command& c, const std::vector<std::string>& within, std::
     out += begin;
     for (const std::string& n : o.spellings()) out += n.starts_with("--") ? " -l " + n.substr(2) : " -s " + n.substr(1);
     if (!o.takes_what().empty()) out += takes_files(o) ? " -r -F" : " -x";
-    if (!o.choices.empty()) out += " -a " + shell_word(fmt::format("{}", fmt::join(o.choices, " ")));
+    if (const std::string words = suggested_values(o); !words.empty()) out += " -a " + shell_word(words);
     out += " -d " + shell_word(brief(o.help)) + "\n";
   }
+  if (const std::string words = suggested_arguments(c); !words.empty())
+    out += fmt::format("{} -a {}\n", begin, shell_word(words));
   for (const Command& sub : c.commands) {
     out += fmt::format("{} -f -a {} -d {}\n", begin, sub.name(), shell_word(brief(sub.help)));
     std::vector<std::string> inner = within;

@@ -6,6 +6,7 @@
 #include "core/file/atomic_file.h"
 #include "graphs/text/stock_graphs.h"
 #include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_graph.h"
 #include "runner/cli/exemplar/new_graph.h"
 #include "runner/cli/exemplar/starting_graph.h"
 #include "runner/terminal/console.h"
@@ -74,7 +75,8 @@ void add_new_command(Command& program) {
   command
       .add_option("--like", &flags->like,
                   "The stock graph (graphs/NAME.json) to begin with; material if not given, texture for a picture")
-      .takes("NAME");
+      .takes("NAME")
+      .suggests(stock_names());
   add_limit_flags(command, flags->limits);
   command.add_flag("--force", &flags->force, "Overwrite the graph file if it exists");
   command.footer =

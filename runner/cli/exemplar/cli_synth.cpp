@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -33,6 +34,18 @@ std::vector<Override> overrides_of(const std::vector<Argument>& arguments, const
   return out;
 }
 
+/// The argument that sets the parameter of the graph that has the same name as this one of the node that writes.
+const Argument* argument_for(const std::vector<Argument>& arguments, const std::string& parameter) {
+  const auto found = std::ranges::find(arguments, parameter, &Argument::parameter);
+  return found == arguments.end() || parameter == "name" ? nullptr : &*found;
+}
+
+/// A message less the quoted name that it begins with: `"format": gltf takes ...`.
+std::string without_subject(const std::string& message) {
+  const size_t end = message.find("\": ");
+  return message.starts_with('"') && end != message.npos ? message.substr(end + 3) : message;
+}
+
 /// Reports problems in terms of the arguments of `synth`, the folder first, instead of the stock graph.
 GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
   std::vector<Problem> problems;
@@ -40,6 +53,8 @@ GraphError about_arguments(const GraphError& error, const std::vector<Argument>&
     const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter checks the maps' shapes
     if (const size_t at = p.override_position.value_or(arguments.size()); at < arguments.size())
       problems.push_back({{}, arguments[at].name + " " + arguments[at].value, p.message});
+    else if (const Argument* of = p.node == "files" ? argument_for(arguments, p.parameter) : nullptr)
+      problems.push_back({{}, of->name + " " + of->value, without_subject(p.message)});
     else if (is_source || p.node == "files")
       problems.push_back({{},
                           is_source                         ? "FOLDER"

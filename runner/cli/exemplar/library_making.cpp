@@ -106,6 +106,11 @@ void add_material(LibraryEntry& entry, const GraphNode& exemplar, const Material
 std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::path& place,
                                        const std::atomic<bool>& cancelled, RunResult& result) {
   const bool is_folder = fs::is_directory(asked.source);
+  if (std::error_code missing; !is_folder && fs::exists(asked.source, missing) && format_from(asked.source))
+    throw UsageError(
+        fmt::format("SOURCE: {} is a picture, and maps come in a folder: expected that folder, or an "
+                    "analysis that save_analysis wrote; synth and new take a single picture",
+                    asked.source));
   if (is_folder && !asked.material.empty())
     throw UsageError("--material needs an analysis; SOURCE already is the folder of the maps");
   LibraryEntry entry;

@@ -57,8 +57,13 @@ NewGraph new_graph(const ExemplarFlags& exemplar, const fs::path& out, const std
                         .streaks = features->repeats().streaks.any(),
                         .tiles = features->wraps(),
                         .method = suitable_method(*features, Task())};
-  return {.text = starting_graph(look, stock_graph(like)),
-          .findings = {"found " + look.exemplar->map_names(), look.nature(), look.advice()}};
+  if (const ImagePtr color = look.exemplar->find(std::string(name_of(Semantic::base_color))))
+    look.faults = exemplar_faults(*color);
+  NewGraph made{.text = starting_graph(look, stock_graph(like)),
+                .findings = {"found " + look.exemplar->map_names(), look.nature(), look.advice()}};
+  if (const std::string light = look.light(); !light.empty())
+    made.findings.push_back(light + "; the node \"delight\" takes it out");
+  return made;
 }
 
 }  // namespace terrazzo

@@ -114,6 +114,27 @@ void interpret(JsonValue& graph, const std::map<std::string, std::string>& maps)
   node->set("interpret", std::move(said));
 }
 
+/// Lets all readers of `from` read `to`. Expressions about the node's size stay.
+void rewire(JsonValue& value, std::string_view from, std::string_view to) {
+  if (value.text == from) value.text = to;
+  for (JsonValue& item : value.items) rewire(item, from, to);
+  for (JsonMember& member : value.members) rewire(member.value, from, to);
+}
+
+/// Puts a node behind the exemplar that takes out its light.
+void delight(JsonValue& nodes, const ExemplarFindings& look) {
+  constexpr const char* name = "even_light";
+  const auto exemplar = std::ranges::find(nodes.members, "exemplar", &JsonMember::name);
+  for (const char* wire : {"@exemplar", "@exemplar.material", "@exemplar.image"})
+    rewire(nodes, wire, std::string("@") + name);
+  JsonValue node = JsonValue::empty_object();
+  node.set("type", JsonValue::of("delight"));
+  node.set("material", JsonValue::of("@exemplar"));
+  comment(node, look.light() + ".");
+  comment(node, "This takes out what is slow, and the shading of the relief; \"strength\" says how much.");
+  nodes.members.insert(exemplar + 1, {name, {}, std::move(node)});
+}
+
 }  // namespace
 
 std::string ExemplarFindings::nature() const {
@@ -123,6 +144,12 @@ std::string ExemplarFindings::nature() const {
 
 std::string ExemplarFindings::advice() const {
   return method.sentence() + (method.method == Method::noise ? "; --like noise begins with that" : "");
+}
+
+std::string ExemplarFindings::light() const {
+  if (!faults.is_lit_from_a_side()) return "";
+  return fmt::format("It is {:.0f} % brighter at the {} than at the {}: light that was baked in",
+                     100 * faults.brightening, faults.bright_side, faults.dark_side);
 }
 
 bool takes_an_exemplar(std::string_view graph, bool is_picture) {
@@ -152,6 +179,7 @@ std::string starting_graph(const ExemplarFindings& look, std::string_view stock)
   comment(first, "  " + look.advice());
   // Graphs with several exemplars compare common maps.
   const bool is_of_one = nodes.find("exemplar") && !nodes.find("all");
+  if (is_of_one && !look.light().empty()) delight(nodes, look);
   if (JsonValue* weighted = nodes.find("weighted"); weighted && is_of_one) weigh(*weighted, *look.exemplar);
   if (JsonValue* guides = nodes.find("guides"))
     comment(*guides, "Edges keep features such as joints and cracks whole. `terrazzo nodes guidance` says more.");

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/filter/exemplar_faults.h"
 #include "core/material/material.h"
 #include "core/stochastic/method.h"
 
@@ -23,18 +24,22 @@ struct ExemplarFindings {
   bool streaks = false;                            ///< it continues along an axis
   bool tiles = false;                              ///< opposite borders match
   MethodChoice method{};                           ///< the recommended method
+  ExemplarFaults faults{};                         ///< of the base colour
 
   /// A sentence on what kind of exemplar it is.
   std::string nature() const;
   /// A sentence that recommends the stock graph `material` or `noise`, with the reason.
   std::string advice() const;
+  /// A sentence on light that was baked in; empty if there is none.
+  std::string light() const;
 };
 
 /// Whether a graph has a parameter for an exemplar's folder, or for a single picture, and declares no inputs.
 bool takes_an_exemplar(std::string_view graph, bool is_picture);
 
 /// Adapts a stock graph to this exemplar: sets its folder or picture, weights, and whether to search for a lattice.
-/// Adds comments on the findings, the choices with their reasons, and parameters worth changing.
+/// Takes out baked-in light. Adds comments on the findings, the choices with their reasons, and parameters worth
+/// changing.
 std::string starting_graph(const ExemplarFindings& look, std::string_view stock);
 
 }  // namespace terrazzo

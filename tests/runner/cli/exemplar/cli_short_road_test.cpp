@@ -113,3 +113,55 @@ TEST_CASE("stock graphs stand wherever a graph file does, and are not written to
   CHECK(w.run({"format", "stock:engine", "-o", "mine.json"}).code == 0);
   CHECK(w.run({"check", "mine.json"}).code == 0);
 }
+
+TEST_CASE("new puts a node that takes out the light where check sees some, and check is content with the graph") {
+  const Workplace w;
+  const auto photo = [&](const fs::path& path, double brightening) {
+    std::vector<float> pixels;
+    for (int y = 0; y < 64; y++)
+      for (int x = 0; x < 96; x++)
+        for (int c = 0; c < 3; c++)
+          pixels.push_back(float((0.3 + 0.2 * ((x * 7 + y * 13) % 11) / 10) * (1 + brightening * x / 95)));
+    fs::create_directories(path.parent_path());
+    write_image(*Image::from_floats({.size = {96, 64},
+                                     .channels = 3,
+                                     .semantic = Semantic::base_color,
+                                     .color_space = "srgb_texture",
+                                     .depth = Depth::u8},
+                                    std::move(pixels)),
+                path, {}, [](double) {});
+  };
+  photo(w.path / "maps/wall_color.png", 0.8);
+  photo(w.path / "even/wall_color.png", 0);
+  photo(w.path / "wall.png", 0.8);
+  for (const std::string from : {"maps", "wall.png"}) {
+    const ProgramRun run = w.run({"new", from, "-o", from + ".json"});
+    CHECK_MESSAGE(run.code == 0, run.err);
+    CHECK_MESSAGE(contains(run.err, "brighter at the right than at the left"), run.err);
+    const std::string graph = read_text(w.path / (from + ".json"));
+    CHECK(contains(graph, "{\"type\": \"delight\", \"material\": \"@exemplar\"}"));
+    CHECK(contains(graph, "\"material\": \"@even_light\""));
+    const ProgramRun check = w.run({"check", from + ".json"});
+    CHECK(check.code == 0);
+    CHECK_FALSE_MESSAGE(contains(check.err + check.out, "baked in"), check.err);
+    const ProgramRun made =
+        w.run({"run", from + ".json", "--set", "out=out", "--set", "size=32x32", "--set", "quality=draft"});
+    CHECK_MESSAGE(contains(made.err, "slow light: the brightest place had"), made.err);
+  }
+  CHECK(w.run({"new", "even", "-o", "even.json"}).code == 0);
+  CHECK_FALSE(contains(read_text(w.path / "even.json"), "delight"));
+  const ProgramRun check = w.run({"check", "even.json", "--set", "material=maps"});
+  CHECK_MESSAGE(contains(check.err + check.out, "The node \"delight\" takes it out"), check.err);
+}
+
+TEST_CASE(
+    "what an engine's files refuse is told by the option that asked for it, and a picture in the library's place") {
+  const Workplace w;
+  write_picture(w.path / "maps/wall_color.png", 5);
+  const ProgramRun run = w.run({"synth", "maps", "-o", "out", "--engine", "gltf", "--format", "tga"});
+  CHECK(run.code == 2);
+  CHECK_MESSAGE(contains(run.err, "error: --format tga: gltf takes png or jpg, found \"tga\""), run.err);
+  const ProgramRun added = w.run({"library", "add", "a", "maps/wall_color.png", "--library", "lib"});
+  CHECK(added.code == 2);
+  CHECK_MESSAGE(contains(added.err, "SOURCE: maps/wall_color.png is a picture"), added.err);
+}
