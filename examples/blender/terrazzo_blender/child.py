@@ -1,0 +1,86 @@
+# Runs the program as a child process. A thread reads what it reports, so nothing here ever waits. Plain Python.
+import atexit
+import json
+import os
+import queue
+import signal
+import subprocess
+import threading
+
+from . import program
+
+_running = set()
+
+
+class Child:
+    """A run of the program: events of `--progress json`, and at the end {"event": "exited", "code"}."""
+
+    def __init__(self, preferred, arguments, environment=None):
+        """preferred: the path of the program, or nothing to look for it. arguments: of the program, as texts."""
+        self._events = queue.SimpleQueue()
+        self._process = None
+        self._cancelled = False
+        self._lock = threading.Lock()
+        self.has_ended = False
+        _running.add(self)
+        threading.Thread(target=self._run, args=(preferred, list(arguments), environment), daemon=True).start()
+
+    def poll(self):
+        """The events since the last call."""
+        out = []
+        while not self._events.empty():
+            out.append(self._events.get())
+        if any(e["event"] == "exited" for e in out):
+            self.has_ended = True
+            _running.discard(self)
+        return out
+
+    def cancel(self, at_once=False):
+        """Ends the program as Ctrl-C does, so that it leaves no partial files; at_once: kills it."""
+        with self._lock:
+            self._cancelled = True
+            if self._process is not None and self._process.poll() is None:
+                self._process.send_signal(signal.SIGKILL if at_once else signal.SIGTERM)
+
+    def _run(self, preferred, arguments, environment):
+        code = 1
+        try:
+            path = program.find(preferred)
+            program.require(path)
+            with self._lock:
+                if not self._cancelled:
+                    self._process = subprocess.Popen(
+                        [path, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                        stderr=subprocess.PIPE, env={**os.environ, **(environment or {})}, start_new_session=True)
+            if self._process is not None:
+                for line in self._process.stderr:
+                    self._events.put(event_in(line.decode("utf-8", "replace")))
+                code = self._process.wait()
+            else:
+                code = 130
+        except program.ProgramError as e:
+            self._events.put({"event": "error", "message": str(e)})
+        except OSError as e:
+            self._events.put({"event": "error", "message": f"The program cannot be run: {e}"})
+        finally:
+            self._events.put({"event": "exited", "code": code})
+
+
+def event_in(line):
+    """The object in a line; a line that is none, as of a library, is a note."""
+    try:
+        event = json.loads(line)
+        if isinstance(event, dict) and isinstance(event.get("event"), str):
+            return event
+    except ValueError:
+        pass
+    return {"event": "note", "message": line.strip()}
+
+
+def end_all():
+    """Ends all children: Blender quits, or the add-on is switched off."""
+    for child in list(_running):
+        child.cancel()
+
+
+atexit.register(end_all)
