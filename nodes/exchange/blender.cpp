@@ -36,8 +36,7 @@ std::string blender_script(const MaterialScene& scene) {
              "# Makes the material and a plane of its physical size: blender --python FILE, or open it in the text "
              "editor and run it.\nNAME = {}\nSIZE = ({:g}, {:g})  # metres\n"
              "REPEATS = ({:g}, {:g})\nRELIEF = {:g}  # metres from the lowest height to the highest\nFILES = {}\n\n",
-             text(scene.name), size.width, size.height, scene.repeats[0], scene.repeats[1], scene.relief,
-             text(files)) +
+             text(scene.name), size.width, size.height, scene.repeats[0], scene.repeats[1], scene.relief, text(files)) +
          std::string(blender_material_builder()) + std::string(plane_maker);
 }
 

@@ -1,5 +1,6 @@
 # Runs the program as a child process. A thread reads what it reports, so nothing here ever waits. Plain Python.
 import atexit
+import ctypes
 import json
 import os
 import queue
@@ -9,7 +10,19 @@ import threading
 
 from . import program
 
+PR_SET_PDEATHSIG = 1
+
 _running = set()
+try:
+    _prctl = ctypes.CDLL(None).prctl
+except (OSError, AttributeError, TypeError):
+    _prctl = None  # not Linux
+
+
+def _end_with_parent():
+    """In the new process: the system ends it with the thread that has started it, even if Blender crashes."""
+    if _prctl is not None:
+        _prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 class Child:
@@ -35,12 +48,12 @@ class Child:
             _running.discard(self)
         return out
 
-    def cancel(self, at_once=False):
-        """Ends the program as Ctrl-C does, so that it leaves no partial files; at_once: kills it."""
+    def cancel(self):
+        """Ends the program as Ctrl-C does, so that it leaves no partial files."""
         with self._lock:
             self._cancelled = True
             if self._process is not None and self._process.poll() is None:
-                self._process.send_signal(signal.SIGKILL if at_once else signal.SIGTERM)
+                self._process.send_signal(signal.SIGTERM)
 
     def _run(self, preferred, arguments, environment):
         code = 1
@@ -51,10 +64,12 @@ class Child:
                 if not self._cancelled:
                     self._process = subprocess.Popen(
                         [path, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                        stderr=subprocess.PIPE, env={**os.environ, **(environment or {})}, start_new_session=True)
+                        stderr=subprocess.PIPE, env={**os.environ, **(environment or {})}, start_new_session=True,
+                        preexec_fn=_end_with_parent)
             if self._process is not None:
-                for line in self._process.stderr:
-                    self._events.put(event_in(line.decode("utf-8", "replace")))
+                with self._process.stderr as lines:
+                    for line in lines:
+                        self._events.put(event_in(line.decode("utf-8", "replace")))
                 code = self._process.wait()
             else:
                 code = 130

@@ -53,6 +53,8 @@ class Progress:
     @property
     def fraction(self):
         """From 0 to 1, by the number of stages."""
+        if self.ok:
+            return 1.0  # stages that need not run report nothing
         if not self._stages:
             return 0.0
         partial = sum(f for node, f in self._partial.items() if node not in self._ended)
