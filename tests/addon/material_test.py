@@ -132,6 +132,12 @@ class Trees(unittest.TestCase):
         self.assertEqual((picked.scale, picked.offset, picked.rotation), ((3, 2), (0.1, 0), 1))
         self.assertIn("what 'Hue_Sat' does to a is left out", picked.notes[0])
         self.assertIn("the new material uses the UV map", picked.notes[1])
+        value = t.add("VALUE", [], ["Value"])
+        value.outputs[0].default_value = 4.0
+        t.link(value, "Value", mapping, "Scale")
+        self.assertEqual(tree.pick(t).scale, (4, 4))
+        mapping.vector_type = "TEXTURE"
+        self.assertEqual((tree.pick(t).scale, tree.pick(t).offset), ((0.25, 0.25), (-0.025, -0)))
         layer = t.add("UVMAP", [], ["UV"], uv_map="Second")
         t.link(layer, "UV", mapping, "Vector")
         self.assertEqual(tree.pick(t).uv_layer, "Second")

@@ -12,9 +12,10 @@ KEPT = 5
 
 
 class Job:
-    def __init__(self, title, arguments, preferred, request, on_finished):
-        """request: what on_finished(job) needs; it is called in the main thread when a run has been completed."""
-        self.title, self.request, self._on_finished = title, request, on_finished
+    def __init__(self, title, arguments, preferred, request, on_finished, on_failed):
+        """request: what on_finished(job) needs; it is called in the main thread when a run has been completed.
+        on_failed(folder) is called with the folder of results if none has been."""
+        self.title, self.request, self._on_finished, self._on_failed = title, request, on_finished, on_failed
         self.progress = progress.Progress()
         self.child = child.Child(preferred, arguments)
         self.file = bpy.data.filepath
@@ -31,6 +32,8 @@ class Job:
             self.progress.feed(event)
             if event["event"] == "finished" and event.get("ok"):
                 self._finish()
+        if self.child.has_ended and self.progress.runs == 0:
+            self._on_failed(self.request["out"])
         return not self.child.has_ended
 
     def _finish(self):

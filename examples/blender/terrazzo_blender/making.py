@@ -1,6 +1,7 @@
 # Makes or updates materials when runs are done. All in Blender's main thread.
 import json
 import os
+import shutil
 
 import bpy
 
@@ -38,9 +39,21 @@ def finish(job):
             material.name = name
         elif job.request["assign"]:
             assign(material, old, job.request["object"])
+        if material.users == 0:
+            material.use_fake_user = True  # it is saved although nothing shows it
         job.made = material.name
     if not bpy.app.background:
         bpy.ops.ed.undo_push(message="terrazzo: " + job.title)
+
+
+def discard(folder):
+    """Removes what a run that has failed leaves in its new folder: links or copies of the exemplar."""
+    shutil.rmtree(os.path.join(folder, "exemplar"), ignore_errors=True)
+    for remove, name in ((os.remove, "seeds.json"), (os.rmdir, "")):
+        try:
+            remove(os.path.join(folder, name))
+        except OSError:
+            pass  # it is not there, or not empty
 
 
 def make(job, found, old):

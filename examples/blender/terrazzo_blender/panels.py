@@ -6,13 +6,17 @@ import bpy.utils.previews
 
 from . import jobs, making, settings as panel
 
-WIDTH = 44  # characters of a line in the side bar
+CHARACTER = 5.6  # pixels, on average, at a scale of 1
 _pictures = {}
 
 
 def lines(layout, text, icon="NONE"):
+    """A text in as many lines as the side bar's width asks for; Blender itself wraps nothing."""
     column = layout.column(align=True)
-    for i, line in enumerate(textwrap.wrap(text, WIDTH) or [""]):
+    margin = 75 if icon != "NONE" else 50
+    scale = bpy.context.preferences.system.ui_scale
+    width = max(16, int((bpy.context.region.width / scale - margin) / CHARACTER))
+    for i, line in enumerate(textwrap.wrap(text, width) or [""]):
         column.label(text=line, icon=icon if i == 0 else "BLANK1" if icon != "NONE" else "NONE")
 
 
@@ -21,7 +25,7 @@ class Part:
 
     @classmethod
     def poll(cls, context):
-        return context.space_data.tree_type == "ShaderNodeTree"
+        return context.space_data.tree_type == "ShaderNodeTree" and context.space_data.shader_type == "OBJECT"
 
 
 class TERRAZZO_PT_main(Part, bpy.types.Panel):
@@ -144,7 +148,9 @@ class TERRAZZO_PT_choices(Part, bpy.types.Panel):
 
 def picture(seed):
     path = os.path.join(making.choices["folder"], str(seed), "lit.png")
-    pictures = _pictures.setdefault("choices", bpy.utils.previews.new())
+    if not _pictures:
+        _pictures["choices"] = bpy.utils.previews.new()
+    pictures = _pictures["choices"]
     if path not in pictures:
         pictures.load(path, path, "IMAGE")
     return pictures[path].icon_id

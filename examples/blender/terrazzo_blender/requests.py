@@ -5,7 +5,7 @@ import re
 import bpy
 import numpy
 
-from . import command, jobs, making, settings as panel, sources, surface, tree
+from . import command, jobs, making, program, settings as panel, sources, surface, tree
 from .preferences import preferences
 
 CHOICES = 8
@@ -136,13 +136,14 @@ class Source:
 
 
 def start_make(settings, object, watch=False, seed=None):
+    program.find(preferences().program)
     source = Source(settings, object)
     if settings.as_uv and settings.method == "noise" and not settings.use_graph:
         raise RequestError("Noise blends samples, so it has no uv map: choose the method Layout.")
     values = panel.values_of(settings)
     request = {"source": source.material.name if source.material else "", "object": object.name if object else "",
                "assign": settings.assign, "relief": settings.relief, "title": source.title,
-               "size_by": settings.size_by, "as_uv": settings.as_uv and not settings.use_graph}
+               "as_uv": settings.as_uv and not settings.use_graph}
     notes = []
     if settings.use_graph:
         return start_graph(settings, source, request, watch)
@@ -157,7 +158,7 @@ def start_make(settings, object, watch=False, seed=None):
     values["write"] = "uv" if request["as_uv"] else "maps"
     values["out"] = request["out"] = folder
     job = jobs.start(f"{source.title}, seed {values['seed']}", command.make(values, watch, options()),
-                     preferences().program, request, making.finish)
+                     preferences().program, request, making.finish, making.discard)
     job.messages = notes + more
     return job
 
@@ -192,10 +193,9 @@ def start_graph(settings, source, request, watch):
         elif parameter.role == "out":
             values[parameter.name] = folder
     request["out"], request["seed"] = folder, values.get("seed", "")
-    request["size_by"] = "FACTOR"
     job = jobs.start(f"{source.title}, {os.path.basename(path)}",
                      command.run(path, values, watch, settings.preset, options()), preferences().program, request,
-                     making.finish)
+                     making.finish, making.discard)
     job.messages = notes
     return job
 
@@ -203,6 +203,7 @@ def start_graph(settings, source, request, watch):
 def start_choices(settings, object):
     if settings.use_graph:
         raise RequestError("Best of eight needs the add-on's own graph: switch 'Own graph' off.")
+    program.find(preferences().program)
     source = Source(settings, object)
     values = panel.values_of(settings)
     request = {"title": source.title, "seeds": list(range(settings.seed, settings.seed + CHOICES))}
@@ -213,6 +214,7 @@ def start_choices(settings, object):
         values["name"] = source.name
     values["out"] = request["out"] = folder
     arguments = command.choices(values, request["seeds"], os.path.join(folder, "seeds.json"), options())
-    job = jobs.start(f"{source.title}, eight seeds", arguments, preferences().program, request, making.offer_choices)
+    job = jobs.start(f"{source.title}, eight seeds", arguments, preferences().program, request,
+                     making.offer_choices, making.discard)
     job.messages = notes + more
     return job

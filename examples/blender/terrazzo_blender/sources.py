@@ -86,12 +86,13 @@ def gather(maps, folder, path_of, name, metres=None):
     files, names, notes = {}, {}, []
     for map, use in maps.items():
         image, path = use.image, path_of(use.image)
-        if image.name not in names:
-            names[image.name] = map + ending_of(image, path)
-            place_file(image, path, os.path.join(folder, names[image.name]))
-        entry = files.setdefault(names[image.name], {"maps": {}})
+        key = getattr(image, "name_full", image.name)
+        if key not in names:
+            names[key] = map + ending_of(image, path)
+            place_file(image, path, os.path.join(folder, names[key]))
+        entry = files.setdefault(names[key], {"maps": {}})
         is_color = map in COLORS
-        entry["maps"][map] = use.channel or whole(map, os.path.join(folder, names[image.name]))
+        entry["maps"][map] = use.channel or whole(map, os.path.join(folder, names[key]))
         if use.inverted:
             entry.setdefault("inverted", []).append(map)
         if map == "normal":

@@ -202,15 +202,27 @@ class Tracer:
             self.picked.notes.append("The images are projected as a box; the new material uses the UV map.")
         node, output = self.origin(first.inputs.get("Vector"))
         if node is not None and node.type == "MAPPING":
-            scale, place = node.inputs["Scale"].default_value, node.inputs["Location"].default_value
-            self.picked.scale = (float(scale[0]), float(scale[1]))
-            self.picked.offset = (float(place[0]), float(place[1]))
+            scale, place = self.vector_of(node, "Scale"), self.vector_of(node, "Location")
+            if getattr(node, "vector_type", "POINT") == "TEXTURE":  # the inverse of the others
+                scale = [1 / s if s else 1 for s in scale]
+                place = [-p * s for p, s in zip(place, scale)]
+            self.picked.scale, self.picked.offset = tuple(scale), tuple(place)
             self.picked.rotation = float(node.inputs["Rotation"].default_value[2])
             node, output = self.origin(node.inputs.get("Vector"))
         if node is not None and node.type == "UVMAP":
             self.picked.uv_layer = node.uv_map
         elif node is not None and (node.type != "TEX_COORD" or output != "UV"):
             self.picked.notes.append(f"The images are placed by '{node.name}' {output}; the new material uses the UV map.")
+
+    def vector_of(self, mapping, name):
+        """x and y of an input of a Mapping node, which a Value node may feed."""
+        node, _ = self.origin(mapping.inputs[name])
+        if node is not None and node.type == "VALUE":
+            return [float(node.outputs[0].default_value)] * 2
+        if node is not None:
+            self.picked.notes.append(f"{name} of the Mapping node comes from '{node.name}', which is left out.")
+        value = mapping.inputs[name].default_value
+        return [float(value[0]), float(value[1])]
 
 
 def is_one_minus(node):
