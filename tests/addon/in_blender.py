@@ -222,10 +222,15 @@ def one_of_eight_is_chosen():
 
 
 def the_uv_map_shows_the_resolved_maps():
-    target = wall(repeats=(1, 1), relief=0)
-    job = make(factor=2, as_uv=True, seed=4)
+    # More than 256 pixels, so that high bytes count.
+    maps = os.path.join(SCRATCH, "large")
+    subprocess.run([PROGRAM, "run", "stock:generate-exemplar", "--set", "type=gravel", "--set", "size=300x64", "--set",
+                    "out=" + maps, "--progress", "none"], check=True)
+    target = plane(3, 3 * 128 / 600)
+    give(target, old_material(maps, repeats=(1, 1), relief=0))
+    job = make(factor=2, as_uv=True, seed=4, quality="draft")
     through_uv = target.active_material
-    assert sorted(tuple(n.image.size) for n in through_uv.node_tree.nodes if n.type == "TEX_IMAGE") == [(64, 64)] * 4
+    assert sorted(tuple(n.image.size) for n in through_uv.node_tree.nodes if n.type == "TEX_IMAGE") == [(300, 64)] * 4
     graph = os.path.join(os.path.dirname(sys.modules["terrazzo_blender"].__file__), "material.json")
     resolved = os.path.join(SCRATCH, "resolved")
     values = {"material": os.path.join(job.request["out"], "exemplar"), "out": resolved, "seed": 4, "scale": 2, "join": 0,
@@ -233,7 +238,7 @@ def the_uv_map_shows_the_resolved_maps():
     subprocess.run([PROGRAM, "run", graph, "--progress", "none"] + [w for n, v in values.items() for w in
                                                                   ("--set", f"{n}={v}")], check=True)
     node(through_uv, "MAPPING").inputs["Scale"].default_value = (1, 1, 1)
-    shot = base_colors(target, (128, 128), SCRATCH)
+    shot = base_colors(target, (600, 128), SCRATCH)
     expected = picture_of(os.path.join(resolved, "Bricks_base_color.png"), "sRGB")[:, :, :3]
     expected = numpy.where(expected <= 0.04045, expected / 12.92, ((expected + 0.055) / 1.055) ** 2.4)
     assert numpy.abs(shot - expected).max() < 1e-4, numpy.abs(shot - expected).max()

@@ -8,11 +8,14 @@ import sys
 import tempfile
 import time
 import unittest
+import zlib
+
+import numpy
 
 SOURCE, PROGRAM = sys.argv[1:3]
 del sys.argv[1:3]
 sys.path.insert(0, os.path.join(SOURCE, "examples/blender"))
-from terrazzo_blender import child, command, graph_file, program, progress  # noqa: E402
+from terrazzo_blender import child, command, graph_file, program, progress, uv_file  # noqa: E402
 
 
 def events_of(run, enough=lambda events: False, seconds=60):
@@ -90,6 +93,33 @@ class Children(Scratch):
         self.assertIn(self.path("==out/terrazzo-material.json"), state.files)
         self.assertEqual((state.sizes["exemplar"], state.sizes["layout"]), ((64, 64), (96, 64)))
         self.assertTrue(any("base_color" in n for n in state.notes))
+
+    def test_uv_maps(self):
+        values = {"material": self.maps(), "scale": 2, "quality": "draft", "write": "uv", "out": self.path("uv")}
+        run = child.Child(PROGRAM, command.make(values, options=command.limits(self.path("cache"))))
+        self.assertEqual(events_of(run)[-1]["code"], 0)
+        with open(self.path("uv/uv.tif"), "rb") as file:
+            places = numpy.concatenate(list(uv_file.strips_of(file.read())))
+        self.assertEqual(places.shape, (128, 128, 3))
+        self.assertTrue((places[:, :, :2] < 64).all() and (places[:, :, 2] == 0).all())
+        # Most neighbours are neighbours in the exemplar too.
+        self.assertGreater((numpy.diff(places[:, :, 0].astype(int), axis=1) == 1).mean(), 0.5)
+        uv_file.repack(self.path("uv/uv.tif"), self.path("uv.png"))
+        with open(self.path("uv.png"), "rb") as file:
+            data = file.read()
+        at, packed = 8, b""
+        while at < len(data):
+            size = int.from_bytes(data[at:at + 4], "big")
+            packed += data[at + 8:at + 8 + size] if data[at + 4:at + 8] == b"IDAT" else b""
+            at += 12 + size
+        lines = numpy.frombuffer(zlib.decompress(packed), numpy.uint8).reshape(128, 1 + 128 * 4)
+        pixels = numpy.cumsum(lines[:, 1:].reshape(128, 128, 4), axis=1, dtype=numpy.uint8).astype(int)
+        numpy.testing.assert_array_equal(pixels[:, :, ::2] * 256 + pixels[:, :, 1::2], places[:, :, :2])
+        for damage in (data, b"II*\0" + bytes(40)):
+            with open(self.path("uv/uv.tif"), "wb") as file:
+                file.write(damage)
+            with self.assertRaisesRegex(ValueError, "cannot be read"):
+                uv_file.repack(self.path("uv/uv.tif"), self.path("uv.png"))
 
     def test_choices(self):
         values = {"material": self.maps(), "scale": 1, "quality": "draft", "seed": 5, "out": self.path("it's")}

@@ -2,7 +2,6 @@
 import atexit
 import ctypes
 import json
-import os
 import queue
 import signal
 import subprocess
@@ -28,15 +27,17 @@ def _end_with_parent():
 class Child:
     """A run of the program: events of `--progress json`, and at the end {"event": "exited", "code"}."""
 
-    def __init__(self, preferred, arguments, environment=None):
-        """preferred: the path of the program, or nothing to look for it. arguments: of the program, as texts."""
+    def __init__(self, preferred, arguments, prepare=None):
+        """preferred: the path of the program, or nothing to look for it. arguments: of the program, as texts.
+        prepare(files): called in the thread, which may take its time, when a run is complete; it may raise ValueError."""
+        self._prepare = prepare
         self._events = queue.SimpleQueue()
         self._process = None
         self._cancelled = False
         self._lock = threading.Lock()
         self.has_ended = False
         _running.add(self)
-        threading.Thread(target=self._run, args=(preferred, list(arguments), environment), daemon=True).start()
+        threading.Thread(target=self._run, args=(preferred, list(arguments)), daemon=True).start()
 
     def poll(self):
         """The events since the last call."""
@@ -55,7 +56,7 @@ class Child:
             if self._process is not None and self._process.poll() is None:
                 self._process.send_signal(signal.SIGTERM)
 
-    def _run(self, preferred, arguments, environment):
+    def _run(self, preferred, arguments):
         code = 1
         try:
             path = program.find(preferred)
@@ -64,12 +65,11 @@ class Child:
                 if not self._cancelled:
                     self._process = subprocess.Popen(
                         [path, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                        stderr=subprocess.PIPE, env={**os.environ, **(environment or {})}, start_new_session=True,
-                        preexec_fn=_end_with_parent)
+                        stderr=subprocess.PIPE, start_new_session=True, preexec_fn=_end_with_parent)
             if self._process is not None:
                 with self._process.stderr as lines:
                     for line in lines:
-                        self._events.put(event_in(line.decode("utf-8", "replace")))
+                        self._take(event_in(line.decode("utf-8", "replace")))
                 code = self._process.wait()
             else:
                 code = 130
@@ -79,6 +79,15 @@ class Child:
             self._events.put({"event": "error", "message": f"The program cannot be run: {e}"})
         finally:
             self._events.put({"event": "exited", "code": code})
+
+    def _take(self, event):
+        if self._prepare is not None and event["event"] == "finished" and event.get("ok"):
+            try:
+                self._prepare(event.get("files", []))
+            except (ValueError, OSError) as e:
+                self._events.put({"event": "error", "message": str(e)})
+                event["ok"] = False
+        self._events.put(event)
 
 
 def event_in(line):

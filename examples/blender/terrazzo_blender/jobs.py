@@ -12,12 +12,12 @@ KEPT = 5
 
 
 class Job:
-    def __init__(self, title, arguments, preferred, request, on_finished, on_failed):
+    def __init__(self, title, arguments, preferred, request, on_finished, on_failed, prepare=None):
         """request: what on_finished(job) needs; it is called in the main thread when a run has been completed.
-        on_failed(folder) is called with the folder of results if none has been."""
+        on_failed(folder) is called with the folder of results if none has been. prepare: as child.Child takes it."""
         self.title, self.request, self._on_finished, self._on_failed = title, request, on_finished, on_failed
         self.progress = progress.Progress()
-        self.child = child.Child(preferred, arguments)
+        self.child = child.Child(preferred, arguments, prepare)
         self.file = bpy.data.filepath
         self.is_orphan = False
         self.made = ""  # the name of the material that has been made

@@ -43,7 +43,7 @@ class Progress:
         elif kind == "finished":
             self.files = event.get("files", [])
             self.ok, self.cancelled = event.get("ok", False), event.get("cancelled", False)
-            self.runs += 1
+            self.runs += 1 if self.ok else 0
         elif kind == "watching":
             self.is_watching = True
         elif kind == "exited":

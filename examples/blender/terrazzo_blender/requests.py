@@ -5,7 +5,7 @@ import re
 import bpy
 import numpy
 
-from . import command, jobs, making, program, settings as panel, sources, surface, tree
+from . import command, jobs, making, program, settings as panel, sources, surface, tree, uv_group
 from .preferences import preferences
 
 CHOICES = 8
@@ -158,7 +158,8 @@ def start_make(settings, object, watch=False, seed=None):
     values["write"] = "uv" if request["as_uv"] else "maps"
     values["out"] = request["out"] = folder
     job = jobs.start(f"{source.title}, seed {values['seed']}", command.make(values, watch, options()),
-                     preferences().program, request, making.finish, making.discard)
+                     preferences().program, request, making.finish, making.discard,
+                     uv_group.prepare if request["as_uv"] else None)
     job.messages = notes + more
     return job
 
