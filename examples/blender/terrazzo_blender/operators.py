@@ -78,7 +78,7 @@ class TERRAZZO_OT_cancel(Action):
 
 
 class TERRAZZO_OT_measure(Action):
-    bl_idname, bl_label = "terrazzo.measure", "As now"
+    bl_idname, bl_label = "terrazzo.measure", "As dense as now"
     bl_description = "Sets the pixels per metre that the object shows now"
 
     def act(self, context, settings):

@@ -64,9 +64,8 @@ def draw_own(layout, settings):
     elif settings.size_by == "PIXELS":
         column.row(align=True).prop(settings, "size", text="")
     else:
-        row = column.row(align=True)
-        row.prop(settings, "density")
-        row.operator("terrazzo.measure")
+        column.prop(settings, "density")
+        column.operator("terrazzo.measure")
         column.prop(settings, "most")
     column = layout.column(align=True)
     for name in ("seed", "tileable", "quality", "method", "blend", "relief", "as_uv", "use_weights"):
