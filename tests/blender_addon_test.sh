@@ -28,6 +28,12 @@ cat >deep.json <<'JSON'
            "both": {"type": "make_material", "images": ["@blurred", "@height"], "names": ["base_color", "height"]},
            "files": {"type": "export", "material": "@both", "path": "deep/{map}.png", "depth": "uint16"}}}
 JSON
+cat >dark.json <<'JSON'
+{"terrazzo": 1,
+ "nodes": {"map": {"type": "load_map", "path": "maps/base_color.png"},
+           "dark": {"type": "levels", "image": "@map", "out_white": [0.3]},
+           "file": {"type": "export", "material": "@dark", "path": "dark.png"}}}
+JSON
 sed 's#deep/{map}.png#float/{map}.exr#; s/uint16/float/' deep.json >float.json
 
 failed=0

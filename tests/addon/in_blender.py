@@ -289,6 +289,25 @@ def a_graph_of_ones_own_has_fields_and_is_watched():
     wait()
 
 
+def maps_that_are_edited_elsewhere_are_watched():
+    maps = os.path.join(SCRATCH, "edited")
+    shutil.copytree(MAPS, maps)
+    target = plane(3, 3)
+    give(target, old_material(maps))
+    start("watch", factor=1, quality="draft", seed=6)
+    wait(lambda j: j.progress.is_watching)
+    material = target.active_material
+    image = node(material, "TEX_IMAGE").image
+    first = numpy.array(image.pixels)
+    subprocess.run([PROGRAM, "run", os.path.join(SCRATCH, "dark.json"), "--progress", "none"], check=True)
+    os.replace(os.path.join(SCRATCH, "dark.png"), os.path.join(maps, "base_color.png"))
+    wait(lambda j: j.progress.runs == 2 and j.progress.is_watching)
+    assert target.active_material == material
+    assert numpy.array(image.pixels).mean() < first.mean() - 0.05, "the image has not been loaded again"
+    bpy.ops.terrazzo.cancel(index=0)
+    wait()
+
+
 def faces_and_colors_become_masks():
     target = wall()
     settings = bpy.context.scene.terrazzo
@@ -315,5 +334,5 @@ def faces_and_colors_become_masks():
 run_all([more_stands_beside_the_old_material, an_object_is_fitted, packed_and_deep_images_reach_the_program_as_they_are,
          exr_images_stay_linear, images_without_a_file_are_named, a_program_that_is_missing_or_too_old_is_told,
          a_run_can_be_cancelled, undo_and_saving_do_not_disturb_a_run, one_of_eight_is_chosen,
-         the_uv_map_shows_the_resolved_maps, a_graph_of_ones_own_has_fields_and_is_watched,
+         the_uv_map_shows_the_resolved_maps, a_graph_of_ones_own_has_fields_and_is_watched, maps_that_are_edited_elsewhere_are_watched,
          faces_and_colors_become_masks])

@@ -1,9 +1,5 @@
-# Everything in which the add-on treats versions of Blender differently, 3.4 to 4.
+# In what versions of Blender differ, 3.4 to 4, for the add-on. (build_material.py stands alone, and asks for itself.)
 import bpy
-
-# Inputs of the Principled BSDF that have had several names; values are carried over from one material to another
-# within one version, so only those that the add-on names itself are here.
-EMISSION = ("Emission Color", "Emission")
 
 
 def linear_space():
