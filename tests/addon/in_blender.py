@@ -321,14 +321,25 @@ def faces_and_colors_become_masks():
         assert "No face is selected" in str(e)
     colors = target.data.color_attributes.new("Paint", "FLOAT_COLOR", "POINT")
     target.data.color_attributes.active_color = colors
-    colors.data.foreach_set("color", [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1])
-    settings.mask_from = "COLOR"
+    colors.data.foreach_set("color", [0, 0, 0, 1, 0.6, 0.6, 0.6, 1, 0.6, 0.6, 0.6, 1, 0, 0, 0, 1])
+    settings.mask_from, settings.mask_over = "COLOR", "EXEMPLAR"
     bpy.ops.terrazzo.bake_mask(parameter="mask")
     drawn = picture_of(settings.parameters["mask"].value())
-    assert drawn.shape[:2] == (64, 64)
-    assert numpy.allclose(drawn[:, :, 0], (numpy.arange(64) + 0.5) / 64, atol=0.003)
+    # The wall shows the exemplar twice; where white and black meet, white counts.
+    across = (numpy.arange(64) + 0.5) / 64
+    assert drawn.shape[:2] == (64, 64) and numpy.allclose(drawn[:, :, 0], 0.3 * (across + 1), atol=0.003)
     make()
     assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (64, 64)
+    assert numpy.allclose(node(target.active_material, "MAPPING").inputs["Scale"].default_value[:2], 2)
+    # Painted on the result: it is spread over the UV square, and so is the mask.
+    settings.graph, settings.mask_over, settings.mask_size = "stock:progression", "RESULT", (64, 32)
+    bpy.ops.terrazzo.read_graph()
+    settings.parameters["size"].text = "96x80"
+    bpy.ops.terrazzo.bake_mask(parameter="target")
+    assert numpy.allclose(picture_of(settings.parameters["target"].value())[:, :, 0], 0.6 * across, atol=0.003)
+    make()
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (96, 80)
+    assert tuple(node(target.active_material, "MAPPING").inputs["Scale"].default_value[:2]) == (1, 1)
 
 
 run_all([more_stands_beside_the_old_material, an_object_is_fitted, packed_and_deep_images_reach_the_program_as_they_are,

@@ -138,12 +138,22 @@ class TERRAZZO_OT_bake_mask(Action):
                 raise requests.RequestError("No face is selected: select some in Edit Mode.")
         else:
             values = brightness(target.data, chosen)
+        if settings.mask_over == "EXEMPLAR":
+            uvs = in_exemplar(uvs, requests.picked_from(requests.original_of(target.active_material)))
         folder = requests.new_folder(target.name + "-mask")
         path = os.path.join(folder, "mask.png")
         masks.write_png(path, masks.draw(uvs, values, tuple(settings.mask_size)))
         if self.parameter in settings.parameters:
             panel.set_field(settings.parameters[self.parameter], path)
+            settings.parameters[self.parameter].baked = path if settings.mask_over == "RESULT" else ""
         self.report({"INFO"}, "wrote " + path)
+
+
+def in_exemplar(uvs, picked):
+    """UVs as the Mapping node of the old material places them."""
+    if picked.rotation:
+        raise requests.RequestError("The Mapping of the material is turned: masks over the exemplar need one that is not.")
+    return uvs * numpy.array(picked.scale) + numpy.array(picked.offset)
 
 
 def brightness(mesh, chosen):

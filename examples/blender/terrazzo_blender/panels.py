@@ -44,6 +44,7 @@ class TERRAZZO_PT_main(Part, bpy.types.Panel):
             draw_graph(layout, settings)
         else:
             draw_own(layout, settings)
+        layout.prop(settings, "relief")
         layout.prop(settings, "assign")
         column = layout.column(align=True)
         column.scale_y = 1.3
@@ -68,7 +69,7 @@ def draw_own(layout, settings):
         column.operator("terrazzo.measure")
         column.prop(settings, "most")
     column = layout.column(align=True)
-    for name in ("seed", "tileable", "quality", "method", "blend", "relief", "as_uv", "use_weights"):
+    for name in ("seed", "tileable", "quality", "method", "blend", "as_uv", "use_weights"):
         column.prop(settings, name)
     if settings.use_weights:
         for i, (_, label, _default) in enumerate(panel.MAP_NAMES):
@@ -161,6 +162,7 @@ class TERRAZZO_PT_mask(Part, bpy.types.Panel):
     def draw(self, context):
         settings = context.scene.terrazzo
         self.layout.prop(settings, "mask_from")
+        self.layout.prop(settings, "mask_over")
         self.layout.row(align=True).prop(settings, "mask_size", text="")
         self.layout.operator("terrazzo.bake_mask").parameter = ""
         lines(self.layout, "With a graph of your own, the brush beside a path bakes the mask into it: stock:progression, "

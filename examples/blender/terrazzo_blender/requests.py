@@ -193,6 +193,8 @@ def start_graph(settings, source, request, watch):
             values[parameter.name], notes = source.gather(folder)
         elif parameter.role == "out":
             values[parameter.name] = folder
+        elif parameter.baked and parameter.value() == parameter.baked:
+            request["scale"], request["offset"] = [1, 1], [0, 0]  # where the mask was painted
     request["out"], request["seed"] = folder, values.get("seed", "")
     job = jobs.start(f"{source.title}, {os.path.basename(path)}",
                      command.run(path, values, watch, settings.preset, options()), preferences().program, request,

@@ -23,6 +23,7 @@ class GraphParameter(bpy.types.PropertyGroup):
     choices: bpy.props.StringProperty()
     default: bpy.props.StringProperty()
     role: bpy.props.StringProperty()
+    baked: bpy.props.StringProperty(description="The mask over the UV square that was drawn for it")
     text: bpy.props.StringProperty(name="Value", description="Empty: the graph's default")
     path: bpy.props.StringProperty(name="Path", subtype="FILE_PATH", description="Empty: the graph's default")
     switch: bpy.props.BoolProperty(name="Value")
@@ -120,6 +121,9 @@ class Settings(bpy.types.PropertyGroup):
     mask_from: bpy.props.EnumProperty(name="From", items=[
         ("SELECTED", "Selected faces", "White where faces are selected"),
         ("COLOR", "Vertex colors", "The brightness of the active color attribute")])
+    mask_over: bpy.props.EnumProperty(name="Over", items=[
+        ("RESULT", "UV square", "For what is painted on the result, which is then spread over the UV square once"),
+        ("EXEMPLAR", "Exemplar", "For what is painted on the exemplar, wherever the object shows it")])
     mask_size: bpy.props.IntVectorProperty(name="Pixels", size=2, default=(1024, 1024), min=1, max=16384)
 
 
