@@ -27,8 +27,8 @@ const ArchiveLibrary& archive_library() {
 
 }  // namespace
 
-std::unique_ptr<ArchiveWriter> write_archive(const fs::path& target) {
-  return archive_library().write(target);
+std::unique_ptr<ArchiveWriter> write_archive(const fs::path& target, ArchiveFormat format) {
+  return archive_library().write(target, format);
 }
 
 std::unique_ptr<ArchiveReader> read_archive(const fs::path& archive) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-/// Archives in the tar format, which common tools can read, by libarchive. It brings along ICU and a dozen other
+/// Archives that common tools can read, by libarchive. It brings along ICU and a dozen other
 /// libraries, which would make the start of the program a third longer. The code that uses it (core/file/libraries/) is
 /// therefore a module that is loaded on first use.
 namespace terrazzo {
@@ -22,7 +22,7 @@ class ArchiveWriter {
   virtual void finish() = 0;
 };
 
-/// Goes through the regular files of an archive once. Throws Error if it is no archive, is cut off or damaged, or
+/// Goes through the regular files of a tar archive once. Throws Error if it is no archive, is cut off or damaged, or
 /// contains anything but regular files and folders.
 class ArchiveReader {
  public:
@@ -37,10 +37,13 @@ class ArchiveReader {
   virtual void extract(const std::filesystem::path& target) = 0;
 };
 
-std::unique_ptr<ArchiveWriter> write_archive(const std::filesystem::path& target);
+enum class ArchiveFormat : uint8_t { tar, zip };
+
+std::unique_ptr<ArchiveWriter> write_archive(const std::filesystem::path& target,
+                                             ArchiveFormat format = ArchiveFormat::tar);
 std::unique_ptr<ArchiveReader> read_archive(const std::filesystem::path& archive);
 
-/// Whether a file begins like an archive; false if it cannot be read.
+/// Whether a file begins like a tar archive; false if it cannot be read.
 bool is_archive(const std::filesystem::path& file);
 
 /// What the module provides.

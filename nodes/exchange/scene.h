@@ -51,5 +51,8 @@ std::string usd_text(const MaterialScene& scene);
 
 /// A Python script for Blender that creates the material and the plane.
 std::string blender_script(const MaterialScene& scene);
+/// The Python function that makes a material in Blender, which the script and the add-on share:
+/// examples/blender/terrazzo_blender/build_material.py.
+std::string_view blender_material_builder();
 
 }  // namespace terrazzo

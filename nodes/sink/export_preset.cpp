@@ -374,7 +374,7 @@ NodeType export_preset_node() {
       "at least 16 bits, since 8 show as steps.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the maps to write"}};
   t.params = export_preset_params();
-  t.version = 5;
+  t.version = 6;
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {

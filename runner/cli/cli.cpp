@@ -202,6 +202,7 @@ void add_commands(Command& program, ProgressMode mode) {
   add_library_command(program);
   add_farm_commands(program);
   add_compare_command(program);
+  add_blender_command(program);
   add_shell_commands(program, "terrazzo " TERRAZZO_VERSION);
   add_help_command(program, mode);
 }

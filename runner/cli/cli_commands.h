@@ -22,6 +22,7 @@ void add_document_commands(Command& program);
 void add_node_commands(Command& program);
 void add_cache_command(Command& program);
 void add_compare_command(Command& program);
+void add_blender_command(Command& program);
 void add_library_command(Command& program);
 void add_farm_commands(Command& program);
 /// Manual pages and completions, generated from the commands of `program`, which must outlive them.

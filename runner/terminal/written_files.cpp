@@ -39,6 +39,8 @@ std::string_view name_of(WrittenKind kind) {
       return "drawing of a graph";
     case WrittenKind::pack:
       return "pack";
+    case WrittenKind::zip:
+      return "zip file";
   }
   return "";
 }
@@ -99,6 +101,8 @@ bool is_of_kind(const fs::path& path, WrittenKind kind) {
       return begins_with("<svg") || begins_with("digraph");
     case WrittenKind::pack:
       return text.size() > 262 && text.substr(257).starts_with("ustar");
+    case WrittenKind::zip:
+      return text.starts_with("PK\3\4");
   }
   return false;
 }

@@ -10,7 +10,7 @@
 /// Files that commands write in addition to nodes' files, and checks that they overwrite nothing of value.
 namespace terrazzo {
 
-enum class WrittenKind : uint8_t { page, trace, summary, table, picture, graph, drawing, pack };
+enum class WrittenKind : uint8_t { page, trace, summary, table, picture, graph, drawing, pack, zip };
 
 struct WrittenFile {
   std::string option;  ///< the option that names it, for messages: "--report"

@@ -30,25 +30,28 @@ File open_to_write(const fs::path& file, const fs::path& name_in_messages) {
   return out;
 }
 
-/// In GNU's form, which holds names as they are; what libarchive makes in pax form depends on the locale.
-class GnuTarWriter final : public ArchiveWriter {
+/// Of the tar formats GNU's, which holds names as they are; what libarchive makes in pax form depends on the locale.
+class FormatWriter final : public ArchiveWriter {
  public:
-  explicit GnuTarWriter(const fs::path& target)
+  FormatWriter(const fs::path& target, ArchiveFormat format)
       : target_(target), temporary_(temporary_beside(target)), archive_(archive_write_new(), archive_write_free) {
     std::error_code failure;
     if (target.has_parent_path()) fs::create_directories(target.parent_path(), failure);
     out_ = open_to_write(temporary_, target_);
-    archive_write_set_format_gnutar(archive_.get());
+    if (format == ArchiveFormat::zip)
+      archive_write_set_format_zip(archive_.get());
+    else
+      archive_write_set_format_gnutar(archive_.get());
     archive_write_set_bytes_in_last_block(archive_.get(), 1);  // no padding
     check(archive_write_open_fd(archive_.get(), out_.descriptor()));
   }
-  ~GnuTarWriter() override {
+  ~FormatWriter() override {
     if (temporary_.empty()) return;
     std::error_code ignored;
     fs::remove(temporary_, ignored);
   }
-  GnuTarWriter(const GnuTarWriter&) = delete;
-  GnuTarWriter& operator=(const GnuTarWriter&) = delete;
+  FormatWriter(const FormatWriter&) = delete;
+  FormatWriter& operator=(const FormatWriter&) = delete;
 
   void add(const std::string& name, std::string_view bytes) override {
     begin(name, bytes.size());
@@ -180,7 +183,9 @@ class TarReader final : public ArchiveReader {
 extern "C" __attribute__((visibility("default"))) const terrazzo::ArchiveLibrary* terrazzo_archive_library() {
   using namespace terrazzo;
   static constexpr ArchiveLibrary library = {
-      [](const fs::path& target) -> std::unique_ptr<ArchiveWriter> { return std::make_unique<GnuTarWriter>(target); },
+      [](const fs::path& target, ArchiveFormat format) -> std::unique_ptr<ArchiveWriter> {
+        return std::make_unique<FormatWriter>(target, format);
+      },
       [](const fs::path& archive) -> std::unique_ptr<ArchiveReader> { return std::make_unique<TarReader>(archive); }};
   return &library;
 }

@@ -141,6 +141,28 @@ TEST_CASE("the same content gives the same bytes, and an archive that is not fin
   CHECK_THROWS_AS(write_archive(one.path() / "data" / "c.tar"), Error);
 }
 
+TEST_CASE("the same content gives the same zip file, in any time zone, which Python reads") {
+  const TemporaryFolder folder;
+  const auto zip = [&](const char* name) {
+    const std::unique_ptr<ArchiveWriter> writer = write_archive(folder.path() / name, ArchiveFormat::zip);
+    writer->add("addon/a.py", "one = 1\n");
+    writer->add("addon/b.py", std::string(5000, '#'));
+    writer->finish();
+    return read_text(folder.path() / name);
+  };
+  const std::string bytes = zip("a.zip");
+  ::setenv("TZ", "Asia/Tokyo", 1);
+  ::tzset();
+  CHECK(zip("b.zip") == bytes);
+  ::unsetenv("TZ");
+  ::tzset();
+  CHECK(bytes.size() < 1000);
+  const std::string command = "cd '" + folder.path().string() + "' && python3 -m zipfile -e a.zip .";
+  REQUIRE(std::system(command.c_str()) == 0);
+  CHECK(read_text(folder.path() / "addon/a.py") == "one = 1\n");
+  CHECK(read_text(folder.path() / "addon/b.py") == std::string(5000, '#'));
+}
+
 TEST_CASE("archives in pax form, as they were written before, are read, in any locale") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.tar";

@@ -204,6 +204,7 @@ TEST_CASE("Blender's script loads data as data, and the height into Height") {
   CHECK(contains(script, "\"m_base_color.png\",\"color_space\":\"sRGB\""));
   CHECK(contains(script, "links.new(image(\"height\"), displacement.inputs[\"Height\"])"));
   CHECK(contains(script, "RELIEF = 0.1"));
+  CHECK(contains(script, std::string(blender_material_builder())));
 }
 
 TEST_CASE("names become identifiers") {

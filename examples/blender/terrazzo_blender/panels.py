@@ -1,0 +1,178 @@
+import os
+import textwrap
+
+import bpy
+import bpy.utils.previews
+
+from . import jobs, making, settings as panel
+
+CHARACTER = 5.6  # pixels, on average, at a scale of 1
+_pictures = {}
+
+
+def lines(layout, text, icon="NONE"):
+    """A text in as many lines as the side bar's width asks for; Blender itself wraps nothing."""
+    column = layout.column(align=True)
+    margin = 75 if icon != "NONE" else 50
+    scale = bpy.context.preferences.system.ui_scale
+    width = max(16, int((bpy.context.region.width / scale - margin) / CHARACTER))
+    for i, line in enumerate(textwrap.wrap(text, width) or [""]):
+        column.label(text=line, icon=icon if i == 0 else "BLANK1" if icon != "NONE" else "NONE")
+
+
+class Part:
+    bl_space_type, bl_region_type, bl_category = "NODE_EDITOR", "UI", "terrazzo"
+
+    @classmethod
+    def poll(cls, context):
+        return context.space_data.tree_type == "ShaderNodeTree" and context.space_data.shader_type == "OBJECT"
+
+
+class TERRAZZO_PT_main(Part, bpy.types.Panel):
+    bl_idname, bl_label = "TERRAZZO_PT_main", "Make more material"
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.terrazzo
+        layout.prop(settings, "source")
+        if settings.source == "FOLDER":
+            layout.prop(settings, "folder")
+            layout.prop(settings, "name")
+        elif context.object is None or context.object.active_material is None:
+            lines(layout, "Select an object that has a material.", "INFO")
+        layout.prop(settings, "use_graph")
+        if settings.use_graph:
+            draw_graph(layout, settings)
+        else:
+            draw_own(layout, settings)
+        layout.prop(settings, "relief")
+        layout.prop(settings, "assign")
+        column = layout.column(align=True)
+        column.scale_y = 1.3
+        column.operator("terrazzo.make", icon="ADD")
+        row = layout.row(align=True)
+        row.operator("terrazzo.another_seed")
+        row.operator("terrazzo.best_of_eight")
+        row = layout.row(align=True)
+        row.operator("terrazzo.watch", icon="HIDE_OFF")
+        row.operator("terrazzo.add_result", icon="FILE_FOLDER")
+
+
+def draw_own(layout, settings):
+    column = layout.column(align=True)
+    column.prop(settings, "size_by")
+    if settings.size_by == "FACTOR":
+        column.prop(settings, "factor")
+    elif settings.size_by == "PIXELS":
+        column.row(align=True).prop(settings, "size", text="")
+    else:
+        column.prop(settings, "density")
+        column.operator("terrazzo.measure")
+        column.prop(settings, "most")
+    column = layout.column(align=True)
+    for name in ("seed", "tileable", "quality", "method", "blend", "as_uv", "use_weights"):
+        column.prop(settings, name)
+    if settings.use_weights:
+        for i, (_, label, _default) in enumerate(panel.MAP_NAMES):
+            column.prop(settings, "weights", index=i, text=label)
+
+
+def draw_graph(layout, settings):
+    row = layout.row(align=True)
+    row.prop(settings, "graph", text="")
+    row.operator("terrazzo.read_graph", text="", icon="FILE_REFRESH")
+    if not settings.graph_read:
+        return
+    if settings.graph_presets:
+        layout.prop(settings, "preset")
+        lines(layout, "Presets: " + settings.graph_presets.replace("\n", ", "))
+    for parameter in settings.parameters:
+        if parameter.role:
+            continue
+        row = layout.row(align=True)
+        row.prop(parameter, parameter.field(), text=parameter.name)
+        if parameter.kind == "path":
+            row.operator("terrazzo.bake_mask", text="", icon="BRUSH_DATA").parameter = parameter.name
+
+
+class TERRAZZO_PT_runs(Part, bpy.types.Panel):
+    bl_idname, bl_label = "TERRAZZO_PT_runs", "Runs"
+
+    def draw(self, _context):
+        layout = self.layout
+        if not jobs.jobs and not jobs.history:
+            layout.label(text="Nothing has been run yet.")
+        for i, job in enumerate(jobs.jobs):
+            row = layout.row(align=True)
+            row.label(text=job.title, icon="RENDER_ANIMATION")
+            row.operator("terrazzo.cancel", text="", icon="X").index = i
+            draw_job(layout, job)
+        for job in jobs.history:
+            layout.label(text=job.title, icon="ERROR" if job.has_failed else "CHECKMARK")
+            draw_job(layout, job)
+
+
+def draw_job(layout, job):
+    lines(layout, job.summary)
+    if job.made:
+        layout.label(text=job.made, icon="MATERIAL")
+    for error in job.progress.errors[1:]:
+        lines(layout, error, "ERROR")
+    for warning in job.progress.warnings + job.messages:
+        lines(layout, warning, "INFO")
+
+
+class TERRAZZO_PT_notes(Part, bpy.types.Panel):
+    bl_idname, bl_label, bl_parent_id, bl_options = "TERRAZZO_PT_notes", "Notes of the last run", "TERRAZZO_PT_runs", {
+        "DEFAULT_CLOSED"}
+
+    def draw(self, _context):
+        job = (jobs.jobs + jobs.history or [None])[0]
+        for note in job.progress.notes if job else []:
+            lines(self.layout, note)
+
+
+class TERRAZZO_PT_choices(Part, bpy.types.Panel):
+    bl_idname, bl_label = "TERRAZZO_PT_choices", "Best of eight"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and bool(making.choices["seeds"])
+
+    def draw(self, _context):
+        grid = self.layout.grid_flow(columns=2, row_major=True, even_columns=True)
+        for seed in making.choices["seeds"]:
+            column = grid.column(align=True)
+            column.template_icon(icon_value=picture(seed), scale=6)
+            column.operator("terrazzo.choose", text=f"Seed {seed}").seed = seed
+
+
+def picture(seed):
+    path = os.path.join(making.choices["folder"], str(seed), "lit.png")
+    if not _pictures:
+        _pictures["choices"] = bpy.utils.previews.new()
+    pictures = _pictures["choices"]
+    if path not in pictures:
+        pictures.load(path, path, "IMAGE")
+    return pictures[path].icon_id
+
+
+class TERRAZZO_PT_mask(Part, bpy.types.Panel):
+    bl_idname, bl_label, bl_options = "TERRAZZO_PT_mask", "Masks", {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        settings = context.scene.terrazzo
+        self.layout.prop(settings, "mask_from")
+        self.layout.prop(settings, "mask_over")
+        self.layout.row(align=True).prop(settings, "mask_size", text="")
+        self.layout.operator("terrazzo.bake_mask").parameter = ""
+        lines(self.layout, "With a graph of your own, the brush beside a path bakes the mask into it: stock:progression, "
+              "stock:inpaint, stock:mix, stock:masked.")
+
+
+def unregister():
+    for pictures in _pictures.values():
+        bpy.utils.previews.remove(pictures)
+    _pictures.clear()
+
+
+CLASSES = (TERRAZZO_PT_main, TERRAZZO_PT_runs, TERRAZZO_PT_notes, TERRAZZO_PT_choices, TERRAZZO_PT_mask)

@@ -1,0 +1,349 @@
+# Uses the add-on in Blender as its user does, but for the window.
+# Usage: blender --background --factory-startup --python in_blender.py -- ADDON.zip PROGRAM MAPS_FOLDER SCRATCH
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+import bpy
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from workbench import (base_colors, give, install, make, node, old_material, picture_of, plane, refusal,  # noqa: E402
+                       run_all, start, wait)
+
+ARCHIVE, PROGRAM, MAPS, SCRATCH = sys.argv[sys.argv.index("--") + 1:]
+install(ARCHIVE, PROGRAM, SCRATCH)
+
+
+def preferences():
+    return bpy.context.preferences.addons["terrazzo_blender"].preferences
+
+
+def wall(**more):
+    target = plane(3, 3)
+    give(target, old_material(MAPS, **more))
+    bpy.context.scene.terrazzo.quality = "draft"
+    return target
+
+
+def digests(folder):
+    out = {}
+    for name in sorted(os.listdir(folder)):
+        if os.path.isfile(os.path.join(folder, name)):
+            with open(os.path.join(folder, name), "rb") as file:
+                out[name] = hashlib.sha256(file.read()).hexdigest()
+    return out
+
+
+def more_stands_beside_the_old_material():
+    target = wall()
+    old = target.active_material
+    node(old, "BSDF_PRINCIPLED").inputs["Metallic"].default_value = 0.25
+    before = digests(MAPS)
+    job = make(factor=1.5)
+    new = target.active_material
+    assert new.name == job.made == "Bricks seed 1", new.name
+    assert old.name in bpy.data.materials and old.use_fake_user
+    scale = tuple(node(new, "MAPPING").inputs["Scale"].default_value)[:2]
+    assert numpy.allclose(scale, 4 / 3), scale
+    assert abs(node(new, "DISPLACEMENT").inputs["Scale"].default_value - 0.02) < 1e-6
+    assert node(new, "BSDF_PRINCIPLED").inputs["Metallic"].default_value == 0.25
+    assert node(new, "GROUP").inputs["Occlusion"].links
+    assert digests(MAPS) == before
+    # Another seed starts from the old material again, not from the result.
+    start("another_seed")
+    wait()
+    assert target.active_material.name == "Bricks seed 2"
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (96, 96)
+    assert len(target.material_slots) == 1
+
+
+def an_object_is_fitted():
+    target = plane(3, 2, (1.5, 2))
+    give(target, old_material(MAPS, repeats=(1, 1)))
+    target.scale = (2, 1, 1)
+    bpy.context.view_layer.update()
+    bpy.ops.terrazzo.measure()
+    assert abs(bpy.context.scene.terrazzo.density - (64 / 4 + 64 / 1) / 2) < 1e-3, bpy.context.scene.terrazzo.density
+    make(size_by="OBJECT", density=20, quality="draft", tileable="none")
+    new = target.active_material
+    assert tuple(node(new, "TEX_IMAGE").image.size) == (120, 40)
+    assert numpy.allclose(tuple(node(new, "MAPPING").inputs["Scale"].default_value)[:2], (1 / 1.5, 1 / 2))
+    job = make(density=20, most=64)
+    assert "repeats" in job.messages[0] and tuple(node(target.active_material, "TEX_IMAGE").image.size) == (64, 40)
+
+
+def packed_and_deep_images_reach_the_program_as_they_are():
+    deep = os.path.join(SCRATCH, "deep")
+    subprocess.run([PROGRAM, "run", os.path.join(SCRATCH, "deep.json"), "--progress", "none"], check=True)
+    for packed in (False, True):
+        target = plane(3, 3)
+        give(target, old_material(deep, ("base_color", "height")))
+        files = {}
+        for n in target.active_material.node_tree.nodes:
+            if n.type == "TEX_IMAGE":
+                with open(bpy.path.abspath(n.image.filepath), "rb") as file:
+                    files[n.label] = file.read()
+                if packed:
+                    n.image.pack()
+                    n.image.filepath = "//nowhere/" + n.label
+        job = make(factor=1, quality="draft", seed=3)
+        for name, data in files.items():
+            with open(os.path.join(job.request["out"], "exemplar", name + ".png"), "rb") as file:
+                assert file.read() == data, name
+        results = {d for name, d in digests(job.request["out"]).items() if name.endswith(".png")}
+        assert not packed or results == unpacked
+        unpacked = results
+        colors = picture_of(bpy.path.abspath(node(target.active_material, "TEX_IMAGE").image.filepath))
+        assert len(numpy.unique(colors[:, :, 0])) > 256, "16 bits have become 8"
+
+
+def exr_images_stay_linear():
+    folder = os.path.join(SCRATCH, "float")
+    subprocess.run([PROGRAM, "run", os.path.join(SCRATCH, "float.json"), "--progress", "none"], check=True)
+    from terrazzo_blender.build_material import build_material
+    from terrazzo_blender.compat import linear_space
+    target = plane(3, 3)
+    give(target, build_material("Float", folder, {"base_color": {"file": "base_color.exr", "color_space": linear_space()}}))
+    make(factor=1, quality="draft")
+    image = node(target.active_material, "TEX_IMAGE").image
+    before, after = (picture_of(p, linear_space()) for p in (os.path.join(folder, "base_color.exr"),
+                                                             bpy.path.abspath(image.filepath)))
+    # The result shows the exemplar's own colours: linear ones taken for sRGB would be much darker or lighter.
+    shown = picture_of(bpy.path.abspath(image.filepath), image.colorspace_settings.name)
+    assert abs(shown[:, :, :3].mean() / before[:, :, :3].mean() - 1) < 0.1, (shown.mean(), before.mean(), after.mean())
+
+
+def images_without_a_file_are_named():
+    def with_image(image):
+        target = wall()
+        node(target.active_material, "TEX_IMAGE").image = image
+        return refusal()
+
+    generated = bpy.data.images.new("New one", 64, 64)
+    assert "'New one' is generated" in with_image(generated)
+    edited = bpy.data.images.load(os.path.join(MAPS, "base_color.png"))
+    edited.pixels[0] = 0.5
+    edited.update()
+    assert "changes that are not saved" in with_image(edited)
+    missing = bpy.data.images.load(os.path.join(MAPS, "base_color.png"))
+    missing.filepath = "/nowhere/stone.png"
+    assert "is missing: there is no file /nowhere/stone.png" in with_image(missing)
+    tiles = os.path.join(SCRATCH, "tiles")
+    os.makedirs(tiles, exist_ok=True)
+    for tile in (1001, 1002):
+        shutil.copy(os.path.join(MAPS, "base_color.png"), os.path.join(tiles, f"wall.{tile}.png"))
+    udim = bpy.data.images.load(os.path.join(tiles, "wall.1001.png"))
+    udim.source = "TILED"
+    udim.filepath = os.path.join(tiles, "wall.<UDIM>.png")
+    assert "UDIM" in with_image(udim)
+    target = wall()
+    target.active_material.node_tree.nodes.remove(node(target.active_material, "BSDF_PRINCIPLED"))
+    assert "no Principled BSDF" in refusal()
+    give(target, bpy.data.materials.new("Plain"))
+    assert "does not use nodes" in refusal()
+    assert "There is no folder /nowhere" in refusal(source="FOLDER", folder="/nowhere")
+
+
+def a_program_that_is_missing_or_too_old_is_told():
+    wall()
+    old = os.path.join(SCRATCH, "old")
+    with open(old, "w") as file:
+        file.write("#!/bin/sh\necho terrazzo 0.0.1\n")
+    os.chmod(old, 0o755)
+    try:
+        for path, says in (("/nowhere/terrazzo", "no program /nowhere/terrazzo"), (old, "is too old: it is version 0.0.1")):
+            preferences().program = path
+            said = refusal()
+            assert says in said and ("Build it" in said or "newer program" in said), said
+    finally:
+        preferences().program = PROGRAM
+    make(factor=1)
+
+
+def a_run_can_be_cancelled():
+    wall()
+    start(factor=30, quality="best")
+    began = time.monotonic()
+    job = wait(lambda j: "layout" in j.progress.node)
+    bpy.ops.terrazzo.cancel(index=0)
+    assert time.monotonic() - began < 60
+    assert wait() is job and job.summary == "cancelled" and not job.made, job.summary
+    assert not os.path.exists(job.request["out"])
+
+
+def undo_and_saving_do_not_disturb_a_run():
+    target = wall()
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(SCRATCH, "first.blend"))
+    preferences().results = "//maps"
+    bpy.ops.ed.undo_push(message="before")
+    target.location.x = 5
+    bpy.ops.ed.undo_push(message="moved")
+    start(factor=2)
+    bpy.ops.ed.undo()
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(SCRATCH, "second.blend"))
+    job = wait()
+    assert job.made == "Bricks seed 1", job.summary
+    new = bpy.data.objects["Wall"].active_material
+    assert new.name == job.made
+    path = node(new, "TEX_IMAGE").image.filepath
+    assert path.startswith("//maps/Bricks-01/"), path
+    files = digests(job.request["out"])
+    bpy.ops.wm.save_mainfile()
+    assert digests(job.request["out"]) == files
+    # A file that is closed meanwhile: the maps are there, and nothing lands in the other file.
+    start(factor=2, seed=5)
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(SCRATCH, "first.blend"))
+    job = wait()
+    assert not job.made and "The file was closed. The maps are in" in job.messages[0], job.messages
+    assert "Bricks seed 5" not in bpy.data.materials and not job.has_failed
+    bpy.ops.terrazzo.add_result(directory=job.request["out"])
+    assert "Bricks" in bpy.data.objects["Wall"].material_slots[-1].material.name
+    preferences().results = os.path.join(SCRATCH, "results")
+
+
+def one_of_eight_is_chosen():
+    target = wall()
+    start("best_of_eight", factor=1.5, seed=10)
+    job = wait()
+    assert not job.has_failed, job.summary
+    from terrazzo_blender import making
+    assert making.choices["seeds"] == list(range(10, 18))
+    pictures = {hashlib.sha256(open(os.path.join(job.request["out"], str(s), "lit.png"), "rb").read()).digest()
+                for s in range(10, 18)}
+    assert len(pictures) == 8
+    bpy.ops.terrazzo.choose(seed=12)
+    job = wait()
+    assert target.active_material.name == "Bricks seed 12" and job.progress.sizes["layout"] == (96, 96)
+
+
+def the_uv_map_shows_the_resolved_maps():
+    # More than 256 pixels, so that high bytes count.
+    maps = os.path.join(SCRATCH, "large")
+    subprocess.run([PROGRAM, "run", "stock:generate-exemplar", "--set", "type=gravel", "--set", "size=300x64", "--set",
+                    "out=" + maps, "--progress", "none"], check=True)
+    target = plane(3, 3 * 128 / 600)
+    give(target, old_material(maps, repeats=(1, 1), relief=0))
+    job = make(factor=2, as_uv=True, seed=4, quality="draft")
+    through_uv = target.active_material
+    assert sorted(tuple(n.image.size) for n in through_uv.node_tree.nodes if n.type == "TEX_IMAGE") == [(300, 64)] * 4
+    graph = os.path.join(os.path.dirname(sys.modules["terrazzo_blender"].__file__), "material.json")
+    resolved = os.path.join(SCRATCH, "resolved")
+    values = {"material": os.path.join(job.request["out"], "exemplar"), "out": resolved, "seed": 4, "scale": 2, "join": 0,
+              "tones": 0, "quality": "draft", "tileable": "xy"}
+    subprocess.run([PROGRAM, "run", graph, "--progress", "none"] + [w for n, v in values.items() for w in
+                                                                  ("--set", f"{n}={v}")], check=True)
+    node(through_uv, "MAPPING").inputs["Scale"].default_value = (1, 1, 1)
+    shot = base_colors(target, (600, 128), SCRATCH)
+    expected = picture_of(os.path.join(resolved, "Bricks_base_color.png"), "sRGB")[:, :, :3]
+    expected = numpy.where(expected <= 0.04045, expected / 12.92, ((expected + 0.055) / 1.055) ** 2.4)
+    assert numpy.abs(shot - expected).max() < 1e-4, numpy.abs(shot - expected).max()
+    target = wall()
+    assert "has no uv map" in refusal(as_uv=True, method="noise")
+
+
+def a_graph_of_ones_own_has_fields_and_is_watched():
+    target = wall()
+    graph = os.path.join(SCRATCH, "own.json")
+
+    def write(seed):
+        with open(graph + ".new", "w") as file:
+            file.write(json.dumps({
+                "terrazzo": 1, "parameters": {
+                    "material": {"type": "path"}, "out": {"type": "path"}, "seed": {"type": "int", "default": seed},
+                    "kind": {"type": "choice", "default": "draft", "choices": ["draft", "normal"]},
+                    "size": {"type": "size", "default": "=@maps.size * 2"}},
+                "presets": {"small": {"set": {"size": 32}}},
+                "nodes": {"maps": {"type": "load_material", "path": "$material"},
+                          "w": {"type": "weight", "material": "@maps"}, "p": {"type": "pca", "features": "@w"},
+                          "i": {"type": "index", "appearance": "@p"},
+                          "l": {"type": "synthesize", "index": "@i", "size": "$size", "seed": "$seed", "quality": "$kind"},
+                          "r": {"type": "resolve_uv", "uv": "@l", "material": "@maps"},
+                          "f": {"type": "export", "material": "@r", "path": "$out/{map}.png"}}}) + " // mine\n")
+        os.replace(graph + ".new", graph)
+
+    write(1)
+    settings = bpy.context.scene.terrazzo
+    settings.use_graph, settings.graph = True, graph
+    bpy.ops.terrazzo.read_graph()
+    assert {p.name: p.field() for p in settings.parameters} == {
+        "material": "path", "out": "path", "seed": "whole", "kind": "choice", "size": "text"}
+    settings.preset = "small"
+    make()
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (32, 32)
+    settings.preset, settings.parameters["size"].text = "", "96x64"
+    start("watch")
+    job = wait(lambda j: j.progress.is_watching)
+    material = target.active_material
+    image = node(material, "TEX_IMAGE").image
+    first = list(image.pixels)
+    assert job.made == material.name and tuple(image.size) == (96, 64)
+    write(2)
+    wait(lambda j: j.progress.runs == 2 and j.progress.is_watching)
+    assert target.active_material == material and list(image.pixels) != first
+    bpy.ops.terrazzo.cancel(index=0)
+    wait()
+
+
+def maps_that_are_edited_elsewhere_are_watched():
+    maps = os.path.join(SCRATCH, "edited")
+    shutil.copytree(MAPS, maps)
+    target = plane(3, 3)
+    give(target, old_material(maps))
+    start("watch", factor=1, quality="draft", seed=6)
+    wait(lambda j: j.progress.is_watching)
+    material = target.active_material
+    image = node(material, "TEX_IMAGE").image
+    first = numpy.array(image.pixels)
+    subprocess.run([PROGRAM, "run", os.path.join(SCRATCH, "dark.json"), "--progress", "none"], check=True)
+    os.replace(os.path.join(SCRATCH, "dark.png"), os.path.join(maps, "base_color.png"))
+    wait(lambda j: j.progress.runs == 2 and j.progress.is_watching)
+    assert target.active_material == material
+    assert numpy.array(image.pixels).mean() < first.mean() - 0.05, "the image has not been loaded again"
+    bpy.ops.terrazzo.cancel(index=0)
+    wait()
+
+
+def faces_and_colors_become_masks():
+    target = wall()
+    settings = bpy.context.scene.terrazzo
+    settings.use_graph, settings.graph, settings.mask_size = True, "stock:inpaint", (64, 64)
+    bpy.ops.terrazzo.read_graph()
+    try:
+        target.data.polygons[0].select = False
+        bpy.ops.terrazzo.bake_mask(parameter="mask")
+        raise AssertionError("a mask of nothing")
+    except RuntimeError as e:
+        assert "No face is selected" in str(e)
+    colors = target.data.color_attributes.new("Paint", "FLOAT_COLOR", "POINT")
+    target.data.color_attributes.active_color = colors
+    colors.data.foreach_set("color", [0, 0, 0, 1, 0.6, 0.6, 0.6, 1, 0.6, 0.6, 0.6, 1, 0, 0, 0, 1])
+    settings.mask_from, settings.mask_over = "COLOR", "EXEMPLAR"
+    bpy.ops.terrazzo.bake_mask(parameter="mask")
+    drawn = picture_of(settings.parameters["mask"].value())
+    # The wall shows the exemplar twice; where white and black meet, white counts.
+    across = (numpy.arange(64) + 0.5) / 64
+    assert drawn.shape[:2] == (64, 64) and numpy.allclose(drawn[:, :, 0], 0.3 * (across + 1), atol=0.003)
+    make()
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (64, 64)
+    assert numpy.allclose(node(target.active_material, "MAPPING").inputs["Scale"].default_value[:2], 2)
+    # Painted on the result: it is spread over the UV square, and so is the mask.
+    settings.graph, settings.mask_over, settings.mask_size = "stock:progression", "RESULT", (64, 32)
+    bpy.ops.terrazzo.read_graph()
+    settings.parameters["size"].text = "96x80"
+    bpy.ops.terrazzo.bake_mask(parameter="target")
+    assert numpy.allclose(picture_of(settings.parameters["target"].value())[:, :, 0], 0.6 * across, atol=0.003)
+    make()
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (96, 80)
+    assert tuple(node(target.active_material, "MAPPING").inputs["Scale"].default_value[:2]) == (1, 1)
+
+
+run_all([more_stands_beside_the_old_material, an_object_is_fitted, packed_and_deep_images_reach_the_program_as_they_are,
+         exr_images_stay_linear, images_without_a_file_are_named, a_program_that_is_missing_or_too_old_is_told,
+         a_run_can_be_cancelled, undo_and_saving_do_not_disturb_a_run, one_of_eight_is_chosen,
+         the_uv_map_shows_the_resolved_maps, a_graph_of_ones_own_has_fields_and_is_watched, maps_that_are_edited_elsewhere_are_watched,
+         faces_and_colors_become_masks])
