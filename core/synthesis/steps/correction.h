@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include "core/base/task.h"
 #include "core/synthesis/state/correction_level.h"
 #include "core/synthesis/state/field.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include "core/synthesis/steps/correction.h"
 
 namespace terrazzo {
