@@ -42,12 +42,25 @@ def run(*arguments, **more):
 
 
 def test_usage(folder):
-    missing = run("edit", str(folder / "none.json"))
-    check("a missing graph names `new`", missing.returncode == 2 and "terrazzo new FOLDER" in missing.stderr)
+    for name, why in (("none", "ends in .json"), ("gone/new.json", "there is no folder")):
+        missing = run("edit", str(folder / name))
+        check(f"{name} is an error: {why}", missing.returncode == 2 and why in missing.stderr)
+    shown = run("edit", str(folder / "new.json"), "--read-only")
+    check("--read-only begins no graph", shown.returncode == 2 and "--read-only" in shown.stderr)
     nowhere = run("edit", "graph.json", "--allow", "nowhere", cwd=folder)
     check("a missing folder to allow is an error", nowhere.returncode == 2 and "--allow nowhere" in nowhere.stderr)
     helped = run("edit", "--help")
     check("--help tells of the folder of maps", helped.returncode == 0 and "FOLDER.json" in helped.stdout)
+
+
+def test_new_graph(folder):
+    graph = folder / "new.json"
+    with Editor(program, [str(graph), "--cache", str(folder / "cache")]) as editor:
+        state = editor.call("state")
+        check("a graph that does not exist is not written by opening it", not graph.exists())
+        editor.call("edit", base=state["revision"], edits=[{"op": "add", "type": "pattern"}])
+        editor.wait_for("state", lambda d: '"pattern"' in d["text"])
+        check("the first edit writes it", graph.exists() and '"pattern"' in graph.read_text())
 
 
 def test_session(folder):
@@ -157,7 +170,7 @@ def main():
         folder = pathlib.Path(name)
         os.environ["TERRAZZO_CACHE"] = str(folder / "default-cache")
         (folder / "graph.json").write_text(GRAPH)
-        for test in (test_usage, test_session, test_stopping_while_it_runs, test_read_only, test_folder):
+        for test in (test_usage, test_new_graph, test_session, test_stopping_while_it_runs, test_read_only, test_folder):
             test(folder)
     if failures:
         sys.exit(f"{len(failures)} checks failed")

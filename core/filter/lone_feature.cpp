@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <limits>
 
@@ -99,8 +100,11 @@ LoneFeature LoneFeatureSearch::find() const {
     for (int x = reach; x < cells_.width - reach; x++) {
       const double strength = double(nearest[size_t(y * cells_.width + x)]) / mean;
       if (strength > out.strength)
-        out = {strength, (2 * x + 1) * longer / (2 * along_side), (2 * y + 1) * longer / (2 * along_side)};
+        out = {strength, 0, (2 * x + 1) * longer / (2 * along_side), (2 * y + 1) * longer / (2 * along_side)};
     }
+  const auto middle = nearest.begin() + ptrdiff_t(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  out.usual = double(*middle) / mean;
   return out;
 }
 

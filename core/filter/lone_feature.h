@@ -11,10 +11,11 @@ namespace terrazzo {
 /// and again, and the eye finds that first.
 struct LoneFeature {
   double strength = 0;  ///< how unlike all the rest it is; 1: as two places of the exemplar are on average
+  double usual = 0;     ///< the same of the exemplar's places by half: grain is unlike itself everywhere
   int x = 0, y = 0;     ///< its middle, in pixels
 
-  // Measured in experiments.md#lone_feature.
-  bool is_seen() const { return strength > 1.35; }
+  // Measured in experiments.md, "lone_feature".
+  bool is_seen() const { return strength > 1.35 && strength > 4 * usual; }
 };
 
 /// Gathers the colours of cells, about 40 along an exemplar's longer side. Used by one thread.

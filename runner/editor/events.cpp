@@ -42,10 +42,9 @@ std::string EventStreams::formatted(const std::string& event, const std::string&
   return "event: " + event + "\ndata: " + data + "\n\n";
 }
 
-HttpStream EventStreams::open(const std::string& tab, const std::string& first) {
+HttpStream EventStreams::open(const std::string& tab, const std::function<std::string()>& first) {
   auto stream = std::make_shared<Stream>();
   stream->tab = tab;
-  stream->waiting.push_back({"", first});
   {
     const std::lock_guard lock(mutex_);
     if (is_closed_) return {};
@@ -56,6 +55,9 @@ HttpStream EventStreams::open(const std::string& tab, const std::string& first) 
   }
   changed_.notify_all();
   const auto registration = std::make_shared<Registration>(this, stream);
+  std::string text = first();
+  const std::lock_guard lock(mutex_);
+  stream->waiting.push_front({"", std::move(text)});
   return [this, registration](std::chrono::milliseconds wait) { return next(*registration->stream, wait); };
 }
 

@@ -25,9 +25,10 @@ class EventStreams {
   /// `left` is called with a tab's id once its last stream has ended; from any thread.
   explicit EventStreams(std::function<void(const std::string& tab)> left = {});
 
-  /// A stream for a tab, which begins with `first`, whole events; an older stream of the same tab ends. Empty if there
-  /// are too many, or once closed.
-  HttpStream open(const std::string& tab, const std::string& first);
+  /// A stream for a tab, which begins with what `first` returns, whole events; an older stream of the same tab ends.
+  /// Events from then on are not lost: what is published while `first` is called comes after it. Empty if there are too
+  /// many, or once closed; `first` is not called then.
+  HttpStream open(const std::string& tab, const std::function<std::string()>& first);
 
   /// Sends an event to all tabs. Of the events of a kind of which only the last one counts, one that a tab has not got
   /// yet is replaced. Tabs that do not take their events are cut off; their page connects again.

@@ -109,12 +109,14 @@ HttpAnswer EditorServer::get(const HttpRequest& request) {
 HttpAnswer EditorServer::open_events(const HttpRequest& request) {
   const std::string tab = request.queried("tab");
   if (!is_tab_id(tab)) return {.status = 400, .body = "expected the id of a tab\n"};
-  Json state;
-  within(sandbox_, [&] { state = document_.state(runs_->findings()); });
-  std::string first = "retry: 1000\n\n" + EventStreams::formatted("state", dumped(state));
-  for (const std::string& picture : runs_->current_pictures()) first += EventStreams::formatted("picture", picture);
   HttpAnswer out{.type = "text/event-stream", .headers = {{"Cache-Control", "no-store"}}};
-  out.stream = events_.open(tab, first);
+  out.stream = events_.open(tab, [&] {
+    Json state;
+    within(sandbox_, [&] { state = document_.state(runs_->findings()); });
+    std::string first = "retry: 1000\n\n" + EventStreams::formatted("state", dumped(state));
+    for (const std::string& picture : runs_->current_pictures()) first += EventStreams::formatted("picture", picture);
+    return first;
+  });
   if (!out.stream) return {.status = 503, .body = "too many tabs are open\n"};
   return out;
 }

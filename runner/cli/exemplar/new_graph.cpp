@@ -63,6 +63,8 @@ NewGraph new_graph(const ExemplarFlags& exemplar, const fs::path& out, const std
                 .findings = {"found " + look.exemplar->map_names(), look.nature(), look.advice()}};
   if (const std::string light = look.light(); !light.empty())
     made.findings.push_back(light + "; the node \"delight\" takes it out");
+  if (const std::string lone = look.lone(); !lone.empty())
+    made.findings.push_back(lone + ": a result repeats it; crop it off, paint it over (inpaint), or mask it");
   return made;
 }
 

@@ -154,6 +154,38 @@ TEST_CASE("new puts a node that takes out the light where check sees some, and c
   CHECK_MESSAGE(contains(check.err + check.out, "The node \"delight\" takes it out"), check.err);
 }
 
+TEST_CASE("new and check tell where an exemplar shows something only once") {
+  const Workplace w;
+  const auto photo = [&](const std::string& folder, bool spot) {
+    std::vector<float> pixels;
+    for (int y = 0; y < 96; y++)
+      for (int x = 0; x < 96; x++)
+        for (int c = 0; c < 3; c++) {
+          const bool inside = spot && (x - 60) * (x - 60) + (y - 30) * (y - 30) < 40;
+          pixels.push_back(inside ? float(c == 0) : float(0.3 + 0.2 * ((x * 7 + y * 13) % 11) / 10));
+        }
+    fs::create_directories(w.path / folder);
+    write_image(*Image::from_floats({.size = {96, 96},
+                                     .channels = 3,
+                                     .semantic = Semantic::base_color,
+                                     .color_space = "srgb_texture",
+                                     .depth = Depth::u8},
+                                    std::move(pixels)),
+                w.path / folder / "wall_color.png", {}, [](double) {});
+  };
+  photo("maps", true);
+  photo("plain", false);
+  for (const bool spot : {true, false}) {
+    const std::string folder = spot ? "maps" : "plain", graph = folder + ".json";
+    const ProgramRun made = w.run({"new", folder, "-o", graph});
+    CHECK_MESSAGE(made.code == 0, made.err);
+    CHECK_MESSAGE(contains(made.err, "only once") == spot, made.err);
+    const ProgramRun check = w.run({"check", graph});
+    CHECK(check.code == 0);
+    CHECK_MESSAGE(contains(check.err + check.out, "only once; a result repeats it") == spot, check.err);
+  }
+}
+
 TEST_CASE(
     "what an engine's files refuse is told by the option that asked for it, and a picture in the library's place") {
   const Workplace w;
