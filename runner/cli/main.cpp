@@ -38,7 +38,7 @@ void* in_huge_pages(void* memory, size_t bytes) {
   const auto at = reinterpret_cast<uintptr_t>(memory);
   const uintptr_t first = at / page * page, end = (at + bytes + page - 1) / page * page;
   // Without them, or where parts of the range belong to nobody, memory works as before.
-  [[maybe_unused]] const int failed = ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  [[maybe_unused]] const int failed = ::madvise(static_cast<char*>(memory) - (at - first), end - first, MADV_HUGEPAGE);
   return memory;
 }
 
@@ -64,16 +64,16 @@ void* in_huge_pages(void* memory, size_t bytes) {
 
 // These replace the C library's functions, which returning from main does not use.
 extern "C" {
-[[noreturn, gnu::visibility("default")]] void exit(int code) noexcept {
+__attribute__((noreturn, visibility("default"))) void exit(int code) noexcept {
   end(code);
 }
-[[noreturn, gnu::visibility("default")]] void quick_exit(int code) noexcept {
+__attribute__((noreturn, visibility("default"))) void quick_exit(int code) noexcept {
   end(code);
 }
-[[noreturn, gnu::visibility("default")]] void _exit(int code) {
+__attribute__((noreturn, visibility("default"))) void _exit(int code) {
   end(code);
 }
-[[noreturn, gnu::visibility("default")]] void _Exit(int code) noexcept {
+__attribute__((noreturn, visibility("default"))) void _Exit(int code) noexcept {
   end(code);
 }
 }

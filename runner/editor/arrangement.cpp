@@ -8,6 +8,7 @@
 #include "graphs/edit/edit_context.h"
 #include "graphs/text/stock_graphs.h"
 #include "graphs/tools/layout.h"
+#include "nodes/common/registry.h"
 
 namespace terrazzo {
 

@@ -102,6 +102,7 @@ scenario('bend a wire', async () => {
   await e.type('relief');
   await e.press('Enter');
   await e.laidOut(() => bends()['relief.image > soft.image']?.length === 1, 'bends follow a new name');
+  await e.settle();
   await page.locator('.bend').dblclick();
   await e.laidOut(() => !bends()['relief.image > soft.image'], 'a double click on a bend removes it');
   assert.equal(e.json.nodes.soft.image, '@relief', 'the wire stays');

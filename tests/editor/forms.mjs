@@ -12,7 +12,13 @@ const small = JSON.stringify({
 }, null, 2);
 
 const field = (e, name) => e.page.locator('#panel .field', {has: e.page.locator('label', {hasText: new RegExp(`^\\s*${name}\\b`)})});
-const write = (e, change) => { const document = e.json; change(document); fs.writeFileSync(e.file, JSON.stringify(document, null, 2)); };
+const write = (e, change) => {
+  const document = e.json;
+  change(document);
+  // At once: a file that is half written is a text with mistakes for a moment.
+  fs.writeFileSync(e.file + '.new', JSON.stringify(document, null, 2));
+  fs.renameSync(e.file + '.new', e.file);
+};
 
 scenario('a value typed while it changes elsewhere', async () => {
   const e = await Editor.open(small), {page} = e;

@@ -99,7 +99,7 @@ scenario('levels on the histogram', async () => {
   await e.type('0.9');
   await e.press('Enter');
   await e.saved(({nodes}) => nodes.lifted.in_white[0] === 0.9, 'typed');
-  assert.equal(await handle('white point').getAttribute('aria-valuenow'), '0.9');
+  await page.waitForFunction((e) => e.getAttribute('aria-valuenow') === '0.9', await handle('white point').elementHandle());
   await page.locator('#panel .field', {hasText: 'auto'}).locator('select').selectOption('image');
   await page.getByText('are found from the image').waitFor();
   assert.equal(await handle('black point').count(), 0);
