@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/filter/linear_colors.h"
+
 namespace terrazzo {
 
 namespace {
@@ -10,8 +12,8 @@ namespace {
 /// Keeps divisions finite by the diffuse part of a pure metal and by the specular part of a pure dielectric.
 constexpr double least_part = 1e-6;
 
-double luminance(const Vector3d& color) {
-  return 0.2126 * color.x() + 0.7152 * color.y() + 0.0722 * color.z();
+double luminance_of(const Vector3d& color) {
+  return luminance(color.x(), color.y(), color.z());
 }
 
 Vector3d clamped(const Vector3d& color) {
@@ -37,7 +39,7 @@ MetallicColors to_metallic(const SpecularColors& colors) {
   const double f0 = dielectric_specular;
   // The base colour of a dielectric with the same diffuse light.
   const Vector3d diffuse = colors.diffuse * ((1 - largest(colors.specular)) / (1 - f0));
-  const double m = solved_metallic(luminance(diffuse), luminance(colors.specular));
+  const double m = solved_metallic(luminance_of(diffuse), luminance_of(colors.specular));
   const Vector3d of_diffuse = diffuse / std::max(1 - m, least_part);
   const Vector3d of_specular = (colors.specular - Vector3d(1, 1, 1) * (f0 * (1 - m))) / std::max(m, least_part);
   return {clamped(of_diffuse + (of_specular - of_diffuse) * (m * m)), m};

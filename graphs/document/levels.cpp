@@ -156,7 +156,7 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
   Lacking lacking;
   const size_t before = made_from_.size();
   const auto iterations = read_loop(*loop, folder, *level.names.substitution, diagnostics, lacking, made_from_);
-  const std::set<std::string> names = level.names.substitution->names_in(*loop);
+  const std::set<std::string> names = parameters_in(*loop);
   for (size_t i = before; i < made_from_.size(); i++) {
     made_from_[i].node = level.path + member.name;
     made_from_[i].set_by = settables_behind(level, names);

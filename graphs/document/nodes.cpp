@@ -190,7 +190,7 @@ class NodeReader {
     draft_.asked.insert(lacking.nodes.begin(), lacking.nodes.end());
     if (!lacking.nodes.empty()) draft_.waiting.push_back(e);
     if (!value) return;
-    if (std::set<std::string> names = substitution_.names_in(given); !names.empty() || param.type == ParamType::path)
+    if (std::set<std::string> names = parameters_in(given); !names.empty() || param.type == ParamType::path)
       draft_.names_by[param.name] = std::move(names);
     const std::filesystem::path& base = e.by ? e.by->base : reading_.graph_folder;
     if (std::optional<ParamValue> read = read_param(*value, param, base, diagnostics)) {

@@ -163,10 +163,10 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, const
   return complete ? std::optional(std::move(out)) : std::nullopt;
 }
 
-std::set<std::string> Substitution::names_in(const JsonValue& value) const {
+std::set<std::string> parameters_in(const JsonValue& value) {
   std::set<std::string> out;
-  for (const JsonValue& item : value.items) out.merge(names_in(item));
-  for (const JsonMember& m : value.members) out.merge(names_in(m.value));
+  for (const JsonValue& item : value.items) out.merge(parameters_in(item));
+  for (const JsonMember& m : value.members) out.merge(parameters_in(m.value));
   if (is_expression(value.text)) {
     std::vector<Problem> ignored;
     Diagnostics diagnostics(ignored, "");

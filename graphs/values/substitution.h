@@ -20,6 +20,9 @@ struct ParameterReference {
 /// Empty if no name follows the $ at `at`.
 std::optional<ParameterReference> reference_at(const std::string& text, size_t at);
 
+/// The parameters that a value's texts and expressions name.
+std::set<std::string> parameters_in(const JsonValue& value);
+
 /// Replaces `$name` and "=expression" in a node's values. Not thread-safe.
 class Substitution {
  public:
@@ -31,8 +34,6 @@ class Substitution {
   /// as written. Nullopt after a problem, or if a value is missing.
   std::optional<JsonValue> expand(const JsonValue& value, const Param& param, Diagnostics& diagnostics);
 
-  /// The parameters that a value's texts name.
-  std::set<std::string> names_in(const JsonValue& value) const;
   bool is_path(const std::string& parameter) const { return scope_.is_path(parameter); }
 
   /// The unset parameters and queried nodes that expand has met since the last call.

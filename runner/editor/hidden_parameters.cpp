@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/base/text.h"
 #include "graphs/values/scope.h"
+#include "graphs/values/substitution.h"
 
 namespace terrazzo {
 
@@ -12,25 +12,12 @@ namespace {
 /// Graphs that contain themselves are an error, and are shown all the same.
 constexpr int deepest = 16;
 
-bool is_name_character(char c) {
-  return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-bool has_word(const std::string& text, const std::string& word) {
-  for (size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
-    const size_t end = at + word.size();
-    if ((at == 0 || !is_name_character(text[at - 1])) && (end == text.size() || !is_name_character(text[end])))
-      return true;
-  }
-  return false;
-}
-
-bool names_parameter(const JsonValue& value, const std::string& name) {
-  if (value.is_text() && (value.text.starts_with('=') ? has_word(value.text, name) : has_word(value.text, "$" + name)))
-    return true;
-  return std::ranges::any_of(value.items, [&](const JsonValue& v) { return names_parameter(v, name); }) ||
-         std::ranges::any_of(value.members, [&](const JsonMember& m) { return names_parameter(m.value, name); });
-}
+/// What names parameters: a node's value, or a part of the graph that has an effect in any case.
+struct Use {
+  std::set<std::string> names;
+  std::string whole;             ///< the text, if it is nothing but "$name"
+  bool reaches_nothing = false;  ///< the value of a parameter inside that has no effect
+};
 
 /// Whether a condition says no; one that cannot be evaluated does not.
 bool is_refused(GraphScope& scope, const JsonValue& text) {
@@ -82,21 +69,20 @@ std::set<std::string> HiddenParameters::of_insides(const Subgraph& graph, const 
           if (std::set<std::string> hidden = of_use(path + m.name, *inner, depth + 1); !hidden.empty())
             inside.emplace(m.name, std::move(hidden));
   if (inside.empty()) return {};
+  std::vector<Use> uses;
+  for (const char* section : {"parameters", "outputs", "seed"})
+    if (const JsonValue* value = graph.json->find(section)) uses.push_back({parameters_in(*value), "", false});
+  for (const JsonMember& node : nodes->members) {
+    const auto at = inside.find(node.name);
+    for (const JsonMember& m : node.value.members)
+      uses.push_back({parameters_in(m.value), m.value.text, at != inside.end() && at->second.contains(m.name)});
+  }
   std::set<std::string> out;
   for (const GraphParameter& p : graph.parameters) {
     const std::string& name = p.param.name;
     bool is_hidden = false, has_effect = false;
-    for (const char* section : {"parameters", "outputs", "seed"})
-      if (const JsonValue* value = graph.json->find(section)) has_effect |= names_parameter(*value, name);
-    for (const JsonMember& node : nodes->members) {
-      const auto at = inside.find(node.name);
-      for (const JsonMember& m : node.value.members) {
-        if (!names_parameter(m.value, name)) continue;
-        const bool goes =
-            at != inside.end() && at->second.contains(m.name) && m.value.is_text() && m.value.text == "$" + name;
-        (goes ? is_hidden : has_effect) = true;
-      }
-    }
+    for (const Use& use : uses)
+      if (use.names.contains(name)) (use.reaches_nothing && use.whole == "$" + name ? is_hidden : has_effect) = true;
     if (is_hidden && !has_effect) out.insert(name);
   }
   return out;
