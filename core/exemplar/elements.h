@@ -6,6 +6,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/hash.h"
+#include "core/exemplar/lattice.h"
 
 namespace terrazzo {
 
@@ -29,6 +30,10 @@ int whole_elements(const Elements& elements, bool wraps);
 
 /// The side of a square as large as the element that a pixel belongs to, in the mean of all pixels; in pixels.
 double typical_side(const Elements& elements);
+
+/// How surely joints come again one step of a lattice of rank 2 further, along both of its steps: 0, no more than by
+/// chance; 1, all of them. `wraps`: the exemplar tiles. 0 of another rank.
+double joints_in_step(const Elements& elements, const Lattice& lattice, bool wraps);
 
 /// Null: none are known.
 using ElementsPtr = std::shared_ptr<const Elements>;

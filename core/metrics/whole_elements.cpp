@@ -19,7 +19,7 @@ struct WholeElementsTuning {
   double joint = 0.3;
   double alone = 0.85;
   double most_of_it = 0.75;
-  double least_whole = 0.5;
+  double least_whole = 0.6;
   double most_missing = 0.5;
   int samples = 12;
 };

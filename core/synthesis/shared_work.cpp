@@ -12,6 +12,7 @@ namespace {
 struct SharedWorkTuning {
   double shortest_brick = 64;
   double surest_lattice = 0.4;
+  double least_in_step = 0.75;
   double surest_courses = 0.9;
   double shortest_course = 24;
 };
@@ -25,6 +26,10 @@ const Tunable<SharedWorkTuning> shared_work_tuning(
       "of cells that repeat, from which on elements are laid in phase with them rather than anywhere. Higher: "
       "straight rows bend; lower: stones that vary overlap",
       "element_layout"},
+     {&SharedWorkTuning::least_in_step, "least_in_step", "share of joints",
+      "that come again one step of the lattice further, from which on the same holds however unsure it is. Higher: "
+      "tiles of thin joints overlap; lower: rough bricks stand in rows",
+      "element_layout", 0, 1},
      {&SharedWorkTuning::surest_courses, "surest_courses", "certainty",
       "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
       "squeezed between others; lower: stones that lie in rough courses are cut",
@@ -42,6 +47,12 @@ Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
   return random_lattice_origin(appearance.lattice(), random_bits(o.seed, Purpose::first_cell));
 }
 
+/// Whether elements lie in phase with a lattice of cells.
+bool is_grid_of(const Lattice& lattice, const Elements& elements, bool wraps) {
+  return lattice.rank == 2 && (lattice.certainty >= shared_work_tuning->surest_lattice ||
+                               joints_in_step(elements, lattice, wraps) >= shared_work_tuning->least_in_step);
+}
+
 /// How the exemplar repeats. Where controls say what goes where, a band that comes once does not: it may be one of the
 /// parts that they tell apart.
 Repeats repeats_of(const Appearance& appearance, const SynthesisOptions& options) {
@@ -53,10 +64,9 @@ Repeats repeats_of(const Appearance& appearance, const SynthesisOptions& options
 
 }  // namespace
 
-bool keeps_to_lattice(const Lattice& lattice, const Elements& elements) {
+bool keeps_to_lattice(const Lattice& lattice, const Elements& elements, bool wraps) {
   if (lattice.rank == 2)
-    return lattice.certainty >= shared_work_tuning->surest_lattice &&
-           typical_side(elements) < shared_work_tuning->shortest_brick;
+    return typical_side(elements) < shared_work_tuning->shortest_brick && is_grid_of(lattice, elements, wraps);
   return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&
          lattice.first.norm() >= shared_work_tuning->shortest_course;
 }
@@ -77,7 +87,10 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       origin(lattice_start(index, options)),
       controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task),
       whole_elements(options.whole_bricks && has_elements(*index.appearance())),
-      elements_by_lattice(whole_elements && keeps_to_lattice(lattice, *index.appearance()->elements())) {}
+      elements_by_lattice(whole_elements &&
+                          keeps_to_lattice(lattice, *index.appearance()->elements(), index.appearance()->wraps())),
+      grid_of_elements(whole_elements &&
+                       is_grid_of(lattice, *index.appearance()->elements(), index.appearance()->wraps())) {}
 
 Plane SharedWork::plane(int level) const {
   return {level_size(options.size, level), options.tile_x, options.tile_y};
@@ -97,8 +110,7 @@ LatticeSurface SharedWork::surface() const {
 }
 
 const Lattice* SharedWork::element_lattice() const {
-  const bool sure = lattice.rank == 1 || (lattice.rank == 2 && lattice.certainty >= shared_work_tuning->surest_lattice);
-  return sure && repeats.parts.empty() ? &lattice : nullptr;
+  return (lattice.rank == 1 || grid_of_elements) && repeats.parts.empty() ? &lattice : nullptr;
 }
 
 LevelFacts SharedWork::facts(int level) const {

@@ -23,7 +23,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 28;
+inline constexpr int synthesis_version = 29;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, elements too, and seams moved
 /// on every level but the finest.
@@ -71,7 +71,8 @@ struct LevelFacts {
 };
 
 /// Whether elements that keep to courses, or to a lattice, are better laid as bricks, or by seams, than as wholes.
-bool keeps_to_lattice(const Lattice& lattice, const Elements& elements);
+/// `wraps`: the exemplar tiles.
+bool keeps_to_lattice(const Lattice& lattice, const Elements& elements, bool wraps);
 
 /// How much work goes into a level.
 struct Effort {
@@ -115,6 +116,7 @@ struct SharedWork {
   ControlPyramid controls;
   bool whole_elements;       ///< are asked for, and the exemplar has enough of them
   bool elements_by_lattice;  ///< and they are better laid by their lattice
+  bool grid_of_elements;     ///< and they lie in phase with cells
   int finest = 0;            ///< the level that ends the work
 };
 

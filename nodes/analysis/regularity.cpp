@@ -131,7 +131,7 @@ std::vector<std::string> check_regularity(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 16;
+  t.version = 17;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

@@ -56,7 +56,7 @@ OutputForecasts infer_weight(const Params& params, const InputForecasts& inputs)
 NodeType weight_node() {
   NodeType t;
   t.name = "weight";
-  t.version = 7;
+  t.version = 8;
   t.category = "analysis";
   t.summary = "Weights the maps of a material for analysis";
   t.help =

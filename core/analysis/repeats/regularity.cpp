@@ -1,6 +1,8 @@
 #include "core/analysis/repeats/regularity.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/analysis/repeats/bands.h"
@@ -18,6 +20,7 @@ namespace {
 struct RegularityTuning {
   double smallest_cell = 7.5;
   double least_distinct = 0.15;
+  double told_twice = 2;
   double few_cells = 6.5;
   double least_alike_of_few = 0.6;
   double least_sure_stripes = 0.6;
@@ -38,6 +41,10 @@ const Tunable<RegularityTuning> regularity_tuning(
          "from which on cells say more than the bands they lie in. Higher: courses without a "
          "bond; lower: bonds by chance",
          "not measured: taken over from the code before constants were listed"},
+        {&RegularityTuning::told_twice, "told_twice", "factor",
+         "on the distinctness of cells that colours and joints tell, each by themselves. Higher: chance is taken for "
+         "cells; lower: worn tiles are torn",
+         "regularity", 1, 10},
         {&RegularityTuning::few_cells, "few_cells", "cells of the exemplar",
          "up to which they must be alike by more. Higher: fewer parts that were repeated to "
          "make it tile count as cells; lower: large cells are found",
@@ -81,9 +88,19 @@ Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   return out;
 }
 
-bool is_sure(const Cell& cell, Size exemplar, double least_certainty) {
+/// Whether two lattices have the same points near the origin, to a part of a cell.
+bool are_alike(const Lattice& a, const Lattice& b) {
+  if (a.rank != 2 || b.rank != 2 || std::abs(a.cell_area() - b.cell_area()) > 0.1 * a.cell_area()) return false;
+  return std::ranges::all_of(std::array{b.first, b.second}, [&](const Vector2d& step) {
+    const Vector2d cells = a.cells(step);
+    return (cells.array() - (cells.array() + 0.5).floor()).abs().maxCoeff() < 0.1;
+  });
+}
+
+/// `told_twice`: by the colours and by the joints, each by itself.
+bool is_sure(const Cell& cell, bool told_twice, Size exemplar, double least_certainty) {
   const bool few = cell.lattice.cell_area() * regularity_tuning->few_cells > double(exemplar.area());
-  return cell.distinct >= regularity_tuning->least_distinct &&
+  return cell.distinct * (told_twice ? regularity_tuning->told_twice : 1) >= regularity_tuning->least_distinct &&
          cell.lattice.certainty >=
              (few ? std::max(least_certainty, regularity_tuning->least_alike_of_few) : least_certainty);
 }
@@ -98,6 +115,8 @@ struct Repetition {
 Repetition searched(const Correlation& values, const Correlation& joints, double least_certainty) {
   Bands bands;
   Cell cell;
+  Lattice of_values;
+  bool told_twice = false;
   for (const Correlation* r : {&values, &joints}) {
     const Bands courses = bands_of(*r, true), columns = bands_of(*r, false);
     std::vector<Lattice> grids;
@@ -106,10 +125,14 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
     for (const Bands& b : {courses, columns})
       if (b.lattice.certainty >= least_certainty && b.distinct > bands.distinct) bands = b;
     const Cell c = best_cell(*r, grids);
+    if (r == &values)
+      of_values = c.lattice;
+    else
+      told_twice = are_alike(of_values, c.lattice);
     if (c.distinct > cell.distinct)
       cell = {without_false_repeats(r == &values ? joints : values, c.lattice), c.distinct};
   }
-  if (is_sure(cell, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
+  if (is_sure(cell, told_twice, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   for (const Correlation* r : {&values, &joints})
     if (const Bands b = stripes_of(*r);
@@ -152,14 +175,15 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     values.push_back(correlate(v->planes, v->counts.values, task));
     joints.push_back(correlate(edges.back(), v->counts.values, task));
   }
-  const Repetition found = searched(pooled(values), pooled(joints), least_certainty);
+  const Correlation of_joints = pooled(joints);
+  const Repetition found = searched(pooled(values), of_joints, least_certainty);
   Lattice best = found.lattice;
   if (best.rank > 0) best = told_by_orientation(best, views, task);
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
   const ExemplarView& largest =
       **std::ranges::max_element(views, {}, [](const ExemplarView* v) { return v->seen.area(); });
   const bool wraps = views.size() == 1 && largest.planes.wraps;
-  const Lattice lines = wraps ? lattice_of_lines(edges.front(), best) : Lattice{};
+  const Lattice lines = wraps ? lattice_of_lines(edges.front(), of_joints, best) : Lattice{};
   if (lines.rank > 0 && lines.certainty >= least_certainty)
     best = lines;
   else if (best.rank > 0)

@@ -14,6 +14,8 @@ namespace {
 
 struct StraightLinesTuning {
   double least_crossing = 0.1;
+  double recurring = 0.5;
+  double same_step = 0.75;
   double least_parallel = 0.4;
   double same_lines = 0.7;
   double other_lines = 0.3;
@@ -27,6 +29,16 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
          "what must differ from line to line along both axes. Higher: fewer tiles are seen; lower: layers of rock are "
          "taken for them",
          "not measured: layers of rock have up to a tenth, along one axis"},
+        {&StraightLinesTuning::recurring, "recurring", "factor",
+         "on that where lines come twice and more along both axes, one of them as often as bands do. Higher: tiles "
+         "with "
+         "thin joints are torn; lower: chance lines make tiles",
+         "regularity", 0, 1},
+        {&StraightLinesTuning::same_step, "same_step", "share of the correlation",
+         "of joints a step along and a step down that either alone must have, or they are a bond. Higher: worn tiles "
+         "are "
+         "laid as bricks; lower: bricks are laid as tiles",
+         "regularity", 0, 1},
         {&StraightLinesTuning::least_parallel, "least_parallel", "share of the variance",
          "the same along one axis only. Higher: fewer boards are seen; lower: layers of rock are taken for them",
          "not measured: taken over from the code before constants were listed"},
@@ -50,6 +62,8 @@ struct StraightLines {
   double share = 0;
   double period = 0;
   std::vector<double> profile;
+
+  int count() const { return int(double(profile.size()) / period + 0.5); }
 };
 
 double correlation_around(const std::vector<double>& profile, double lag) {
@@ -104,13 +118,25 @@ StraightLines straight_lines_of(const Planes& plane, bool rows) {
 
 }  // namespace
 
-Lattice lattice_of_lines(const Planes& outlines, const Lattice& found) {
+Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, const Lattice& found) {
   const StraightLines rows = straight_lines_of(outlines, true), columns = straight_lines_of(outlines, false);
   const Vector2d down{0, rows.period}, right{columns.period, 0};
   const bool courses = rows.share >= straight_lines_tuning->least_parallel;
   const double both = std::min(rows.share, columns.share);
-  if (found.rank < 2 && both >= std::max(straight_lines_tuning->least_crossing, found.certainty))
-    return {2, right, down, both};
+  // Thin joints are little of all there is, but tell if the lines of both axes recur and bands come as often as one of
+  // them.
+  const bool recur = rows.count() > 1 && columns.count() > 1 && found.rank == 1 &&
+                     (found.first.x() == 0 ? found.first.y() == rows.period : found.first.x() == columns.period);
+  const double least = recur ? straight_lines_tuning->least_crossing * straight_lines_tuning->recurring
+                             : std::max(straight_lines_tuning->least_crossing, found.certainty);
+  if (found.rank < 2 && both >= least) {
+    // Of bricks in a bond every second course, and every second line of its joints, is alike.
+    const Vector2d diagonal = right + down;
+    const bool bond =
+        recur && rows.count() % 2 == 0 && columns.count() % 2 == 0 &&
+        std::min(joints.at(right), joints.at(down)) < straight_lines_tuning->same_step * joints.at(diagonal);
+    return {2, bond ? Vector2d(2 * right) : right, bond ? diagonal : down, both};
+  }
   const StraightLines& lines = courses ? rows : columns;
   if (lines.share < straight_lines_tuning->least_parallel || found.rank > 1) return {};
   // Bands found otherwise stay, unless lines deny them.

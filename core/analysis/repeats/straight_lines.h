@@ -7,9 +7,9 @@
 namespace terrazzo {
 
 /// The lattice of a tileable exemplar with straight lines from border to border, such as the joints of a single tile:
-/// one cell, or several if lines repeat. `outlines`: see outlines(). Rank 1 if lines run along one axis only; rank 0 if
-/// there are none, or they agree with `found`, a lattice found otherwise.
-Lattice lattice_of_lines(const Planes& outlines, const Lattice& found);
+/// one cell, or several if lines repeat. `outlines`: see outlines(); `joints`: their correlation. Rank 1 if lines run
+/// along one axis only; rank 0 if there are none, or they agree with `found`, a lattice found otherwise.
+Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, const Lattice& found);
 
 /// Courses as high as the exemplar, or columns as wide, where nearly all that differs does so across them: a stripe on
 /// a wall, which would be cut to pieces. Narrower ones if they repeat. Rank 0 if there are none, or they agree with

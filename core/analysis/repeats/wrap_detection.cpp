@@ -9,7 +9,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/analysis/repeats/border_joints.h"
 #include "core/analysis/repeats/regularity.h"
+#include "core/analysis/repeats/seen_map.h"
 #include "core/analysis/space/weighting.h"
 #include "core/base/tuning.h"
 #include "core/image/image_ops.h"
@@ -80,22 +82,6 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
          "not measured: bounds the time", 1},
     });
 
-/// A map in memory, and where it counts.
-struct SeenMap {
-  ImagePtr image;
-  std::vector<uint8_t> counts{};  ///< 1 where it does; empty: everywhere
-
-  /// Of a window that may lie across a border.
-  bool counts_all(int x, int y, int side) const {
-    if (counts.empty()) return true;
-    const auto width = size_t(image->width());
-    for (int dy = 0; dy < side; dy++)
-      for (int dx = 0; dx < side; dx++)
-        if (!counts[size_t(wrap(y + dy, image->height())) * width + size_t(wrap(x + dx, image->width()))]) return false;
-    return true;
-  }
-};
-
 /// How far a window is from the nearest of many windows elsewhere; a map at a border is judged by what it does inside.
 class WindowSearch {
  public:
@@ -133,83 +119,6 @@ class WindowSearch {
   std::unique_ptr<NearestPoints> search_;
 };
 
-/// A row or column, and where it counts.
-struct PixelLine {
-  std::vector<float> values;
-  std::vector<uint8_t> counts;
-};
-
-PixelLine line_of(const SeenMap& map, bool rows, int i) {
-  const Size size = map.image->size();
-  const int at = wrap(i, rows ? size.height : size.width), length = rows ? size.width : size.height;
-  PixelLine out{map.image->read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height}), {}};
-  out.counts.reserve(size_t(length));
-  for (int k = 0; k < length; k++)
-    out.counts.push_back(map.counts.empty() ||
-                         map.counts[size_t(rows ? at : k) * size_t(size.width) + size_t(rows ? k : at)]);
-  return out;
-}
-
-/// How far a line is from the next, summed over all pixels as if those where both count were all.
-struct Step {
-  double distance = 0;
-  double seen = 0;  ///< the share of pixels where both count
-};
-
-Step step_between(const PixelLine& a, const PixelLine& b) {
-  const size_t pixels = a.counts.size(), channels = a.values.size() / pixels;
-  double sum = 0;
-  size_t counted = 0;
-  for (size_t i = 0; i < pixels; i++) {
-    if (!a.counts[i] || !b.counts[i]) continue;
-    counted++;
-    for (size_t k = i * channels; k < (i + 1) * channels; k++) sum += std::abs(double(a.values[k]) - b.values[k]);
-  }
-  const double seen = double(counted) / double(pixels);
-  return {counted > 0 ? sum / seen : 0, seen};
-}
-
-/// Of the lines before and after the border that is so many lines away from the seam.
-Step step_at(const SeenMap& map, bool rows, int i) {
-  return step_between(line_of(map, rows, i - 1), line_of(map, rows, i));
-}
-
-/// Whether a line differs more from the map's means, by channel, than along itself.
-bool stands_out(const PixelLine& line, const std::vector<double>& means) {
-  const size_t channels = means.size();
-  const double pixels = double(std::ranges::count(line.counts, 1));
-  double between = 0, within = 0;
-  for (size_t c = 0; c < channels; c++) {
-    double mean = 0;
-    const auto each = [&](const auto& visit) {
-      for (size_t i = 0; i < line.counts.size(); i++)
-        if (line.counts[i]) visit(line.values[i * channels + c]);
-    };
-    each([&](float v) { mean += v / pixels; });
-    each([&](float v) { within += (v - mean) * (v - mean) / pixels; });
-    between += (mean - means[c]) * (mean - means[c]);
-  }
-  return between > within;
-}
-
-/// Whether a joint seems to run along one of the borders.
-bool has_joint_along_border(const SeenMap& map) {
-  const auto pixels_that_count =
-      double(map.counts.empty() ? map.image->size().area() : std::ranges::count(map.counts, 1));
-  const auto channels = size_t(map.image->channels());
-  std::vector<double> means(channels, 0.0);
-  for_each_strip(*map.image, [&](const Rect& strip, const float* pixels) {
-    const size_t before = size_t(strip.y) * size_t(strip.width);
-    for (size_t i = 0; i < size_t(strip.area()); i++)
-      if (map.counts.empty() || map.counts[before + i])
-        for (size_t c = 0; c < channels; c++) means[c] += pixels[i * channels + c] / pixels_that_count;
-  });
-  for (const bool rows : {true, false})
-    for (const int i : {-1, 0})
-      if (stands_out(line_of(map, rows, i), means)) return true;
-  return false;
-}
-
 /// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
 bool goes_on(const SeenMap& map, bool rows) {
   return step_at(map, rows, 0).distance <=
@@ -225,7 +134,7 @@ bool steps_alike(const SeenMap& map, bool rows, const Task& task) {
   int steps = 0;
   for (int i = 0; i + 1 < lines; i += apart) {
     task.check();
-    const Step step = step_at(map, rows, i + 1);
+    const LineStep step = step_at(map, rows, i + 1);
     if (step.seen == 0) continue;
     steps++;
     sum += step.distance;
@@ -326,34 +235,21 @@ bool borders_fit(const std::vector<SeenMap>& maps, const Task& task) {
     return *joint;
   };
   const auto steps_fit = [&](bool rows) {
-    return all([&](const SeenMap& map) { return steps_alike(map, rows, task) || (goes_on(map, rows) && has_joint()); });
+    return all([&](const SeenMap& map) {
+      return steps_alike(map, rows, task) || (goes_on(map, rows) && has_joint()) || is_joint_that_recurs(map, rows);
+    });
   };
   if (!steps_fit(true) || !steps_fit(false)) return false;
   const Fit fit(maps, task);
   if (!fit.can_tell()) return false;
   const auto windows_fit = [&](bool rows) {
     const double seam = fit.across_seam(rows);
-    return seam <= wrap_detection_tuning->slack || (all([&](const SeenMap& map) { return goes_on(map, rows); }) &&
-                                                    (has_joint() || lines_fit_as_little(fit, rows, seam, task)));
+    return seam <= wrap_detection_tuning->slack ||
+           std::ranges::any_of(maps, [&](const SeenMap& map) { return is_joint_that_recurs(map, rows); }) ||
+           (all([&](const SeenMap& map) { return goes_on(map, rows); }) &&
+            (has_joint() || lines_fit_as_little(fit, rows, seam, task)));
   };
   return windows_fit(true) && windows_fit(false);
-}
-
-/// The maps in memory; none if one is too small to tell.
-std::vector<SeenMap> seen_maps(const Material& material, const ImagePtr& mask, const Task& task) {
-  std::vector<SeenMap> out;
-  for (const Map& map : material.maps()) {
-    const Size size = map.image->size();
-    if (std::min(size.width, size.height) < 2 * wrap_detection_tuning->window) return {};
-    out.push_back({materialized(map.image, task)});
-    SeenMap& seen = out.back();
-    if (!mask) continue;
-    seen.counts.reserve(size_t(size.area()));
-    for_each_strip(*nearest_at_size(mask, size), [&](const Rect& r, const float* v) {
-      for (int64_t i = 0; i < r.area(); i++) seen.counts.push_back(v[i * mask->channels()] > 0.5f);
-    });
-  }
-  return out;
 }
 
 /// Whether neighbouring lines are more alike than any two: the borders of white noise fit together wherever it is cut.
@@ -383,7 +279,7 @@ bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task
 }  // namespace
 
 bool borders_meet(const Material& material, const Task& task) {
-  const std::vector<SeenMap> maps = seen_maps(material, nullptr, task);
+  const std::vector<SeenMap> maps = seen_maps(material, nullptr, 2 * wrap_detection_tuning->window, task);
   const auto tell = [&](bool rows) {
     return std::ranges::any_of(maps, [&](const SeenMap& map) { return neighbours_are_alike(map, rows); });
   };
@@ -391,8 +287,13 @@ bool borders_meet(const Material& material, const Task& task) {
 }
 
 bool seems_to_tile(const Material& material, const Task& task, const ImagePtr& mask) {
-  const std::vector<SeenMap> maps = seen_maps(material, mask, task);
-  return !maps.empty() && borders_fit(maps, task) && !cells_deny(material, mask, task);
+  const std::vector<SeenMap> maps = seen_maps(material, mask, 2 * wrap_detection_tuning->window, task);
+  // A joint that recurs lies exactly where cells begin, which a lattice found without the borders does not tell.
+  const auto on_joint = [&](bool rows) {
+    return std::ranges::any_of(maps, [&](const SeenMap& map) { return is_joint_that_recurs(map, rows); });
+  };
+  return !maps.empty() && borders_fit(maps, task) &&
+         ((on_joint(true) && on_joint(false)) || !cells_deny(material, mask, task));
 }
 
 }  // namespace terrazzo

@@ -9,6 +9,7 @@
 #include "core/procedural/pattern.h"
 #include "tests/exemplars.h"
 #include "tests/lattices.h"
+#include "tests/overrides.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -200,6 +201,26 @@ TEST_CASE("boards of all lengths have no bond, however few they are") {
 
 TEST_CASE("tiles of which an exemplar that does not tile shows hardly two are found") {
   check_cell(lattice_of(picture(squares, 105, 0.35, 0.45, 3)), 105, 0, 0, 105);
+}
+
+TEST_CASE("worn tiles aslant whose colours and joints tell the same cells are found, though either alone is faint") {
+  const auto floor = [](bool tiled) {
+    return plain_features(make_image({256, 256}, 1, [tiled](int i, int j, int) {
+      const double u = (i + j) / 91.0, v = (j - i) / 91.0;
+      const double shade = 0.3 * unit_double(random_bits(5, int(std::floor(u)), int(std::floor(v)) + 100));
+      double grain = 0;
+      for (int k = 0; k < 9; k++) grain += unit_double(random_bits(6, (i + k % 3) / 2, (j + k / 3) / 2)) / 9;
+      const bool joint = tiled && inside(part(u), part(v), 1, 1) * 91 / std::sqrt(2.0) < 1.5;
+      return float((joint ? 0.35 : 0.5 + (tiled ? shade : 0)) + grain);
+    }));
+  };
+  const Lattice found = find_lattice(*floor(true), 0.08, Task()).lattice;
+  REQUIRE(found.rank == 2);
+  CHECK(repeats_by(found, 45.5, 45.5));
+  CHECK(repeats_by(found, -45.5, 45.5));
+  CHECK(find_lattice(*floor(false), 0.08, Task()).lattice.rank == 0);
+  const TuningOverride alone("regularity.told_twice", 1);
+  CHECK(find_lattice(*floor(true), 0.08, Task()).lattice.rank == 0);
 }
 
 TEST_CASE("fine cells are not taken for large ones that fall on whole pixels") {

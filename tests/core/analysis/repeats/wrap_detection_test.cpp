@@ -110,6 +110,22 @@ TEST_CASE("one tile with its joint along the border tiles, unless the joint is c
   CHECK_FALSE(seems_to_tile(*tile(0), Task()));
 }
 
+TEST_CASE("large tiles with a joint along the border and the same one inside tile, whatever the tiles show") {
+  // Bevelled: the last pixels of a tile are dark, its first one is light. Nothing in the tiles goes on across a border.
+  const auto tiles = [](int left, int width) {
+    return Material::of(make_image({width, 192}, 1, [left](int x, int y, int) {
+      const auto bevel = [](int at) { return at >= 94 ? -0.6f : at == 93 ? -0.3f : at == 0 ? 0.3f : 0.f; };
+      const auto corner = [&](int i, int j) { return unit_double(random_bits(8, (x + left) / 16 + i, y / 16 + j)); };
+      const double u = (x + left) % 16 / 16.0, v = y % 16 / 16.0;
+      const double above = (1 - u) * corner(0, 0) + u * corner(1, 0), below = (1 - u) * corner(0, 1) + u * corner(1, 1);
+      return 0.5f * float((1 - v) * above + v * below) + bevel((x + left) % 96) + bevel(y % 96);
+    }));
+  };
+  CHECK(seems_to_tile(*tiles(0, 192), Task()));
+  CHECK_FALSE(seems_to_tile(*tiles(40, 192), Task()));
+  CHECK_FALSE(seems_to_tile(*tiles(40, 130), Task()));
+}
+
 TEST_CASE("an odd number of chequered tiles does not tile, however smooth its borders; an even one does") {
   const auto chequered = [](double side) {
     return Material::of(make_image({192, 192}, 1, [side](int x, int y, int) {
