@@ -13,8 +13,9 @@ namespace {
 // Large enough for a texture to average out, small enough for a lamp or a knot to fill some (experiments.md,
 // "lone_feature").
 constexpr int along_side = 40;
-constexpr int reach = 2;  // of a place's surroundings, in cells
-constexpr int apart = 6;  // what is not farther off counts as the same thing
+constexpr int most_samples = 512;  // along the longer side: twelve along a cell
+constexpr int reach = 2;           // of a place's surroundings, in cells
+constexpr int apart = 6;           // what is not farther off counts as the same thing
 constexpr int per_cell = 2 * LoneFeatureSearch::channels;
 
 /// Sums over surroundings, around the borders.
@@ -36,7 +37,8 @@ void sum_surroundings(const std::vector<int64_t>& values, Size cells, std::vecto
 
 }  // namespace
 
-LoneFeatureSearch::LoneFeatureSearch(Size exemplar) : exemplar_(exemplar) {
+LoneFeatureSearch::LoneFeatureSearch(Size exemplar)
+    : exemplar_(exemplar), step_(std::max(1, std::max(exemplar.width, exemplar.height) / most_samples)) {
   const int longer = std::max(exemplar.width, exemplar.height);
   const Size cells{int(int64_t{exemplar.width} * along_side / std::max(1, longer)),
                    int(int64_t{exemplar.height} * along_side / std::max(1, longer))};
@@ -46,6 +48,7 @@ LoneFeatureSearch::LoneFeatureSearch(Size exemplar) : exemplar_(exemplar) {
 }
 
 void LoneFeatureSearch::add(int x, int y, const double* colour) {
+  if (x % step_ != 0 || y % step_ != 0) return;
   const int longer = std::max(exemplar_.width, exemplar_.height);
   const int column = int(int64_t{x} * along_side / longer), row = int(int64_t{y} * along_side / longer);
   if (column >= cells_.width || row >= cells_.height) return;
@@ -106,6 +109,21 @@ LoneFeature LoneFeatureSearch::find() const {
   std::nth_element(nearest.begin(), middle, nearest.end());
   out.usual = double(*middle) / mean;
   return out;
+}
+
+LoneFeature lone_feature(const Image& image) {
+  LoneFeatureSearch search(image.size());
+  const int step = search.step(), channels = image.channels(), used = std::min(channels, LoneFeatureSearch::channels);
+  for_each_strip(image, [&](const Rect& r, const float* v) {
+    for (int y = (r.y + step - 1) / step * step; y < r.bottom(); y += step)
+      for (int x = 0; x < r.width; x += step) {
+        const float* pixel = v + (size_t(y - r.y) * size_t(r.width) + size_t(x)) * size_t(channels);
+        double colour[LoneFeatureSearch::channels] = {};
+        for (int c = 0; c < used; c++) colour[c] = std::max(0.0, std::min(1.0, double(pixel[c])));  // 1: no number
+        search.add(x, y, colour);
+      }
+  });
+  return search.find();
 }
 
 }  // namespace terrazzo

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/geometry.h"
+#include "core/image/image.h"
 
 namespace terrazzo {
 
@@ -24,6 +25,8 @@ class LoneFeatureSearch {
   static constexpr int channels = 3;
 
   explicit LoneFeatureSearch(Size exemplar);
+  /// Every so many rows and columns are enough of large exemplars; others are not counted.
+  int step() const { return step_; }
   /// `colour`: of all channels, 0 to 1.
   void add(int x, int y, const double* colour);
   /// The place whose surroundings are least like any others, around the exemplar's borders too, but not where they cut
@@ -39,8 +42,12 @@ class LoneFeatureSearch {
   std::vector<int32_t> features() const;
 
   Size exemplar_;
+  int step_;
   Size cells_{};  // 0x0: too small
   std::vector<Cell> sums_;
 };
+
+/// Of an image's first three channels.
+LoneFeature lone_feature(const Image& image);
 
 }  // namespace terrazzo

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/weighting.h"
+#include "core/filter/lone_feature.h"
 #include "core/image_io/color.h"
 #include "core/material/map_names.h"
+#include "nodes/common/exemplar_lint.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
@@ -19,8 +21,18 @@ bool may_be_absent(const std::string& map) {
   return semantic_from(map).has_value();
 }
 
+/// A mask leaves such a thing out, or was made by someone who looked at the exemplar.
+void tell_of_lone_feature(NodeContext& node, const Material& material) {
+  const ImagePtr colour = material.find(Semantic::base_color);
+  if (!colour || node.optional_input<Image>("mask")) return;
+  node.task().check();
+  if (const LoneFeature lone = lone_feature(*colour); lone.is_seen())
+    node.warn(lone_feature_message("base_color", lone));
+}
+
 void compute_weight(NodeContext& node) {
   const auto material = node.input<Material>("material");
+  tell_of_lone_feature(node, *material);
   const bool wraps = exemplar_tiles(node, *material);
   NumberMap weights = node.number_map("weights");
   for (auto at = weights.begin(); at != weights.end();) {

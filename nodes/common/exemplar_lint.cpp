@@ -17,6 +17,14 @@ bool is_about_light(std::string_view message) {
   return message.find(light_shows) != message.npos;
 }
 
+std::string lone_feature_message(const std::string& subject, const LoneFeature& lone) {
+  return fmt::format(
+      "{}: the exemplar shows something around ({}, {}) only once; a result repeats it, and the eye finds that. Crop "
+      "it "
+      "off (crop), paint it over (inpaint), or leave it out by a mask",
+      subject, lone.x, lone.y);
+}
+
 std::vector<std::string> lint_of_colour(const std::string& subject, const std::filesystem::path& file) {
   std::vector<std::string> out;
   try {
@@ -31,11 +39,7 @@ std::vector<std::string> lint_of_colour(const std::string& subject, const std::f
           fmt::format("{}: the exemplar is {:.0f} % brighter at the {} than at the {}: {} as blotches in a result. The "
                       "node \"delight\" takes it out; a photograph in flat light is better",
                       subject, 100 * found.brightening, found.bright_side, found.dark_side, light_shows));
-    if (found.lone.is_seen())
-      out.push_back(
-          fmt::format("{}: the exemplar shows something around ({}, {}) only once; a result repeats it, and the eye "
-                      "finds that. Crop it off (crop), paint it over (inpaint), or leave it out by a mask",
-                      subject, found.lone.x, found.lone.y));
+    if (found.lone.is_seen()) out.push_back(lone_feature_message(subject, found.lone));
   } catch (const Error&) {
     // reading reports it
   }
