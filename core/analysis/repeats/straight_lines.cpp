@@ -154,10 +154,12 @@ Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines
   const bool courses = rows.share >= columns.share;
   const StraightLines& lines = courses ? rows : columns;
   if (lines.share < straight_lines_tuning->nearly_all) return {};
+  const StraightLines edges = shares_of(outlines, courses);
+  if (edges.share < straight_lines_tuning->least_crossing) return {};  // clouds, which have none
   const double period = found.rank == 0 ? 0 : courses ? found.first.y() : found.first.x();
   // Shades of courses may differ where their joints repeat.
   if (period > 0)
-    for (const std::vector<double>& profile : {lines.profile, shares_of(outlines, courses).profile})
+    for (const std::vector<double>& profile : {lines.profile, edges.profile})
       if (least_correlation(profile, period) > straight_lines_tuning->other_lines) return {};
   return {1, courses ? Vector2d{0, lines.period} : Vector2d{lines.period, 0}, {}, lines.share};
 }
