@@ -107,6 +107,10 @@ void compute_regularity(NodeContext& node) {
         "there is a grid of joints, but with too few tiles, or too different ones, to find its lattice: results may "
         "break tiles. Crop the exemplar to whole tiles so that it tiles, use one with more tiles, or give \"first\" "
         "and \"second\" with \"mode\": \"manual\"");
+  if (repeats.lattice.rank == 2 && repeats.lattice.cell_area() > 0.99 * double(features->size().area()))
+    node.warn(
+        "the exemplar is a single cell of its lattice: a result repeats it as it is, with few variations. An exemplar "
+        "that shows several tiles or panels side by side helps");
   node.output("features", features->with(repeats));
 }
 

@@ -57,6 +57,15 @@ TEST_CASE("tiles are found by their joints where their shades differ") {
   CHECK(repeats_by(l, 0, 12));
 }
 
+TEST_CASE("an exemplar that is one tile is warned of, as a result repeats it; one of four tiles is not") {
+  const auto warns = [](int width, int height) {
+    return run_node("regularity", {}, {{"features", {features_of({128, 128}, tiles(width, height), true)}}})
+        .says("a single cell of its lattice");
+  };
+  CHECK(warns(128, 128));
+  CHECK_FALSE(warns(64, 64));
+}
+
 TEST_CASE("the grid on which a herringbone's joints lie is not taken for its lattice") {
   const Lattice l = lattice_of(features_of({128, 128}, herringbone));
   REQUIRE(l.rank == 2);
