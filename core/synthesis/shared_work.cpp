@@ -48,9 +48,10 @@ Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
 }
 
 /// Whether elements lie in phase with a lattice of cells.
-bool is_grid_of(const Lattice& lattice, const Elements& elements, bool wraps) {
-  return lattice.rank == 2 && (lattice.certainty >= shared_work_tuning->surest_lattice ||
-                               joints_in_step(elements, lattice, wraps) >= shared_work_tuning->least_in_step);
+bool is_grid(const Lattice& lattice, const Appearance& appearance) {
+  return lattice.rank == 2 &&
+         (lattice.certainty >= shared_work_tuning->surest_lattice ||
+          joints_in_step(*appearance.elements(), lattice, appearance.wraps()) >= shared_work_tuning->least_in_step);
 }
 
 /// How the exemplar repeats. Where controls say what goes where, a band that comes once does not: it may be one of the
@@ -64,9 +65,7 @@ Repeats repeats_of(const Appearance& appearance, const SynthesisOptions& options
 
 }  // namespace
 
-bool keeps_to_lattice(const Lattice& lattice, const Elements& elements, bool wraps) {
-  if (lattice.rank == 2)
-    return typical_side(elements) < shared_work_tuning->shortest_brick && is_grid_of(lattice, elements, wraps);
+bool keeps_to_courses(const Lattice& lattice) {
   return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&
          lattice.first.norm() >= shared_work_tuning->shortest_course;
 }
@@ -87,10 +86,10 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       origin(lattice_start(index, options)),
       controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task),
       whole_elements(options.whole_bricks && has_elements(*index.appearance())),
-      elements_by_lattice(whole_elements &&
-                          keeps_to_lattice(lattice, *index.appearance()->elements(), index.appearance()->wraps())),
-      grid_of_elements(whole_elements &&
-                       is_grid_of(lattice, *index.appearance()->elements(), index.appearance()->wraps())) {}
+      elements_in_grid(whole_elements && is_grid(lattice, *index.appearance())),
+      elements_by_lattice(elements_in_grid
+                              ? typical_side(*index.appearance()->elements()) < shared_work_tuning->shortest_brick
+                              : whole_elements && keeps_to_courses(lattice)) {}
 
 Plane SharedWork::plane(int level) const {
   return {level_size(options.size, level), options.tile_x, options.tile_y};
@@ -110,7 +109,7 @@ LatticeSurface SharedWork::surface() const {
 }
 
 const Lattice* SharedWork::element_lattice() const {
-  return (lattice.rank == 1 || grid_of_elements) && repeats.parts.empty() ? &lattice : nullptr;
+  return (lattice.rank == 1 || elements_in_grid) && repeats.parts.empty() ? &lattice : nullptr;
 }
 
 LevelFacts SharedWork::facts(int level) const {

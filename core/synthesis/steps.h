@@ -70,9 +70,8 @@ struct LevelFacts {
   bool completes_elements() const;
 };
 
-/// Whether elements that keep to courses, or to a lattice, are better laid as bricks, or by seams, than as wholes.
-/// `wraps`: the exemplar tiles.
-bool keeps_to_lattice(const Lattice& lattice, const Elements& elements, bool wraps);
+/// Whether elements are better laid along such courses, as bricks, than as wholes.
+bool keeps_to_courses(const Lattice& lattice);
 
 /// How much work goes into a level.
 struct Effort {
@@ -115,8 +114,8 @@ struct SharedWork {
   Vector2d origin;   ///< where the lattice starts in the result
   ControlPyramid controls;
   bool whole_elements;       ///< are asked for, and the exemplar has enough of them
-  bool elements_by_lattice;  ///< and they are better laid by their lattice
-  bool grid_of_elements;     ///< and they lie in phase with cells
+  bool elements_in_grid;     ///< and they lie in phase with cells
+  bool elements_by_lattice;  ///< and they are better laid by their lattice, as bricks or by seams
   int finest = 0;            ///< the level that ends the work
 };
 

@@ -41,7 +41,7 @@ void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
   const ElementsPtr& elements = appearance.elements();
   if (!elements || uv.size().area() < appearance.size().area()) return;
   if (!has_elements(appearance)) {
-    if (appearance.lattice().rank < 2 && !keeps_to_lattice(appearance.lattice(), *elements, appearance.wraps()))
+    if (appearance.lattice().rank < 2 && !keeps_to_courses(appearance.lattice()))
       node.warn(
           fmt::format("the exemplar's border cuts all but {} of its {} elements, too few to be laid as wholes: "
                       "they may be torn or melted together. An exemplar that shows more of them, or that tiles, "
