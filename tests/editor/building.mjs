@@ -140,6 +140,7 @@ scenario('break and repair a wire', async () => {
   const e = await Editor.open(stock('material')), {page} = e;
   await e.press('f');
   await e.settle();
+  assert.deepEqual(await e.hiddenWires(), []);
   // What does not fit is refused, and says why.
   await e.drag(e.port('index', 'index', 'source'), e.port('files', 'material', 'target'));
   await e.toast('index gives an index');

@@ -111,6 +111,7 @@ scenario('bend a wire', async () => {
 scenario('drop a node on a wire', async () => {
   const e = await open(line()), {page} = e;
   await e.settle();
+  assert.deepEqual(await e.hiddenWires(), []);
   const from = await e.port('height', 'image', 'source').boundingBox(), to = await e.port('soft', 'image', 'target').boundingBox();
   const head = await e.card('spare').locator('.head').boundingBox(), card = await e.card('spare').boundingBox();
   const middle = {x: (from.x + to.x) / 2 + 5, y: (from.y + to.y) / 2 + 5};

@@ -19,9 +19,11 @@ class Canvas {
   pointer: Point | null = null;  // over the canvas, on the screen
   dropWire = $state<string | null>(null);  // the wire that a dragged node would be put into
 
+  valueOver = $state<string | null>(null);  // the node that a dragged value would go to
+
   pickedBend = $state.raw<{wire: string; index: number} | null>(null);
 
-  /// What wires that go back lead around.
+  /// What wires lead around.
   boxes = $derived(this.nodes.filter((n) => n.type !== 'frame').map(rectangle));
 
   selected = $derived(this.nodes.filter((n) => n.selected && n.type === 'card').map((n) => n.id));

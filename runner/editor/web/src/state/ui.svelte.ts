@@ -29,6 +29,9 @@ class Ui {
   menu = $state.raw<{at: Point; items: MenuItem[]; label: string} | null>(null);
   /// From an output of the node; or, with a port, from wherever to that input.
   connecting = $state.raw<{node: string; port?: string} | null>(null);
+  /// A value: into the parameter of a node, or from a parameter of the graph, into one of that node or of any.
+  wiringFrom = $state.raw<{node: string; param: string} | null>(null);
+  wiringTo = $state.raw<{name: string; node?: string; at?: Point} | null>(null);
   asking = $state.raw<{title: string; value: string; hint?: string; answer: (text: string) => void} | null>(null);
   choosingFile = $state.raw<{value: string; choose: (path: string) => void} | null>(null);
   finding = $state(false);
@@ -64,7 +67,7 @@ class Ui {
     this.asking = {title, value, answer, hint};
   }
   anyOpen() {
-    return !!(this.palette || this.menu || this.connecting || this.asking || this.choosingFile || this.finding || this.help);
+    return !!(this.palette || this.menu || this.connecting || this.wiringFrom || this.wiringTo || this.asking || this.choosingFile || this.finding || this.help);
   }
 }
 
