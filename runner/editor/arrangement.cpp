@@ -70,7 +70,7 @@ std::vector<size_t> row_ends(size_t columns, size_t rows, const std::vector<size
 
 /// Puts a long row of columns into several, one below the other, about twice as wide as high in all.
 void wrap(std::vector<Point>& corners, const std::vector<BoxSize>& boxes, const std::vector<LayoutWire>& wires) {
-  constexpr size_t most_columns = 9, fewest_in_row = 5;
+  constexpr size_t most_columns = 8, fewest_in_row = 4;
   constexpr double between_rows = 72, shape = 2, too_long = 4;
   std::map<double, size_t> columns;
   for (const Point& p : corners) columns.emplace(p.x, 0);

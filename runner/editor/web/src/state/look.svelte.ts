@@ -64,7 +64,9 @@ class Look {
   /// The view shows what is selected, unless it is locked.
   follow() {
     if (this.locked || !canvas.current) return;
-    const looked = {level: session.levelName, node: canvas.current};
+    // What only writes has no picture of its own: what it writes is shown.
+    const node = session.node(canvas.current), source = node && !node.outputs.length ? node.wires[0]?.node : undefined;
+    const looked = {level: session.levelName, node: source && session.node(source) ? source : canvas.current};
     if (runs.looked?.node !== looked.node || runs.looked.level !== looked.level) runs.looked = looked;
   }
 }
