@@ -1,5 +1,5 @@
 // Values that are wired into parameters: those of the graph's parameters, as $name, and sizes of results, as expressions.
-import type { GraphNode, GraphParam, Level, Param } from '../state/protocol.ts';
+import { Refused, type GraphNode, type GraphParam, type Level, type Param } from '../state/protocol.ts';
 import { session } from '../state/session.svelte.ts';
 import { ui, type Point } from '../state/ui.svelte.ts';
 import { isExpression } from './telling.ts';
@@ -59,8 +59,8 @@ export function promote(node: GraphNode, param: Param) {
   let free = key;
   for (let number = 2; taken(free); ++number) free = key + number;
   ui.ask('Make it a parameter of the graph', free, (name) => {
-    if (taken(name)) session.say(`There is a parameter ${name} already.`, 'error');
-    else if (name) void session.edit(`parameter ${name}`,
+    if (taken(name)) throw new Refused(`There is a parameter ${name} already.`, 400);
+    return name && session.tryEdit(`parameter ${name}`,
       {op: 'parameter', name, set: {...declared, ...(value !== undefined ? {default: value} : {})}}, {op: 'set', node: node.name, key, value: '$' + name});
   }, 'Its name; the node then says $name.');
 }

@@ -33,6 +33,9 @@ class Look {
   /// The picture that is compared with, and where the border between the two stands.
   frozen = $state.raw<Picture | null>(null);
   wipe = $state(0.5);
+  /// What was done last when it was taken, and what was since.
+  frozenAs = $state('');
+  now = $derived(session.document?.undo ?? 'as it was opened');
   /// Shared by all pictures of the view: pixels of the screen for one of the picture, and the picture's middle on the screen.
   zoom = $state(0);
   pan = $state.raw({x: 0.5, y: 0.5});

@@ -12,7 +12,9 @@ class Runs {
   plan = new SvelteMap<string, PlannedStage>();
   summary = $state('');
   running = $state(false);
-  last = $state.raw<{ok: boolean; seconds: number; cancelled: boolean} | null>(null);
+  last = $state.raw<{ok: boolean; seconds: number; cancelled: boolean; files: string[]} | null>(null);
+  /// What the graph was at the end of that run, and what was planned after it: if either is another, the run is history.
+  #then: {revision: number; summary?: string} = {revision: 0};
   /// By level and node, the newest of each output, map and resolution.
   pictures = new SvelteMap<string, Picture[]>();
   looked = $state.raw<Looked | null>(null);
@@ -21,12 +23,17 @@ class Runs {
   map = $state<string | undefined>();
   full = $state(false);
 
+  /// What is being made to be looked at, outside of a run.
+  making = $derived(this.running ? null : [...this.nodes].find(([, n]) => n.state === 'running' && n.fraction > 0) ?? [...this.nodes].find(([, n]) => n.state === 'running') ?? null);
+
   picturesOf(level: string, node: string) { return this.pictures.get(level + '/' + node) ?? []; }
 
   takePlan(plan: {stages?: PlannedStage[]; summary?: string}) {
     this.plan.clear();
     for (const stage of plan.stages ?? []) this.plan.set(stage.node, stage);
     this.summary = plan.stages?.length ? plan.summary ?? '' : '';
+    this.#then.summary ??= this.summary;
+    if (this.#then.revision !== session.document?.revision || this.#then.summary !== this.summary) this.last = null;
   }
 
   takePicture(picture: Picture) {
@@ -51,10 +58,11 @@ class Runs {
   }
 
   /// Previews run too, without a word in the bar.
-  ended(how: {ok: boolean; seconds: number; cancelled: boolean; preview?: boolean; message?: string; summary?: string}) {
+  ended(how: {ok: boolean; seconds: number; cancelled: boolean; preview?: boolean; message?: string; summary?: string; files?: string[]}) {
     if (!how.preview && (this.running || how.summary !== undefined)) {
       this.running = false;
-      this.last = how;
+      this.last = {...how, files: how.files ?? []};
+      this.#then = {revision: session.document?.revision ?? 0};
       if (how.message) session.say(how.message, 'error');
     }
     for (const [name, node] of this.nodes) if (node.state === 'running') this.nodes.delete(name);

@@ -10,6 +10,9 @@ export interface PaletteRequest {
   behind?: string;                                                   // the node to add behind
 }
 
+/// Asks for a line of text. What the answer throws is shown, and can be mended.
+export interface Asked {title: string; value: string; hint?: string; answer: (text: string) => unknown}
+
 export interface MenuItem {label: string; keys?: string; act?: () => void; disabled?: string | boolean; more?: MenuItem[]}
 
 const stored = <T>(key: string, fallback: T): T => {
@@ -32,7 +35,7 @@ class Ui {
   /// A value: into the parameter of a node, or from a parameter of the graph, into one of that node or of any.
   wiringFrom = $state.raw<{node: string; param: string} | null>(null);
   wiringTo = $state.raw<{name: string; node?: string; at?: Point} | null>(null);
-  asking = $state.raw<{title: string; value: string; hint?: string; answer: (text: string) => void} | null>(null);
+  asking = $state.raw<Asked | null>(null);
   choosingFile = $state.raw<{value: string; choose: (path: string) => void} | null>(null);
   finding = $state(false);
   help = $state(false);
@@ -63,7 +66,7 @@ class Ui {
       localStorage.setItem('terrazzo.' + key, JSON.stringify(value));
   }
 
-  ask(title: string, value: string, answer: (text: string) => void, hint?: string) {
+  ask(title: string, value: string, answer: Asked['answer'], hint?: string) {
     this.asking = {title, value, answer, hint};
   }
   anyOpen() {
