@@ -128,6 +128,16 @@ TEST_CASE("a text that is not JSON is edited as text") {
   CHECK(state["levels"][""]["nodes"].size() == 2);
   document.undo();
   CHECK(state_json(document.snapshot()).contains("broken"));
+  // What can be read is not replaced by a slip, unless that is meant.
+  document.redo();
+  std::string slip = small;
+  slip.insert(1, " oops");
+  ordered_json edit = {{"op", "text"}, {"text", slip}, {"was", small}};
+  CHECK(refusal_of(document, {{"base", 1}, {"edits", {edit}}}).starts_with("line 1, column 3: "));
+  CHECK(get(folder.path() / "g.json") == small);
+  edit["broken"] = true;
+  document.edit({{"base", 1}, {"edits", {edit}}});
+  CHECK(get(folder.path() / "g.json") == slip);
 }
 
 TEST_CASE("a text typed while the document changes is merged, or refused where both changed the same") {
@@ -188,7 +198,7 @@ TEST_CASE("a change on disk is taken over, merged or asked about") {
     CHECK(document.look_at_disk());
     DocumentSnapshot now = document.snapshot();
     CHECK(now.on_disk == OnDisk::changed);
-    CHECK(now.conflict == "both have changed /nodes/a/type");
+    CHECK(now.conflict == R"(both have changed /nodes/a/type: here to "load_material", elsewhere to "load_map")");
     document.edit(request(add_crop));
     CHECK(get(file) == theirs);
     SUBCASE("mine") {

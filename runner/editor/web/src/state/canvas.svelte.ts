@@ -19,6 +19,8 @@ class Canvas {
   pointer: Point | null = null;  // over the canvas, on the screen
   dropWire = $state<string | null>(null);  // the wire that a dragged node would be put into
 
+  pulledWire = $state<string | null>(null);  // the wire that is being pulled off its input
+  isAbandoned = false;  // what is dragged is given up
   valueOver = $state<string | null>(null);  // the node that a dragged value would go to
 
   pickedBend = $state.raw<{wire: string; index: number} | null>(null);

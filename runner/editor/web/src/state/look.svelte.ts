@@ -66,7 +66,8 @@ class Look {
 
   /// The view shows what is selected, unless it is locked.
   follow() {
-    if (this.locked || !canvas.current) return;
+    // What is painted belongs to what it is painted on.
+    if (this.locked || this.painting || !canvas.current) return;
     // What only writes has no picture of its own: what it writes is shown.
     const node = session.node(canvas.current), source = node && !node.outputs.length ? node.wires[0]?.node : undefined;
     const looked = {level: session.levelName, node: source && session.node(source) ? source : canvas.current};

@@ -3,7 +3,7 @@ import { ask, type Picture, type PlannedStage } from './protocol.ts';
 import { session, tab } from './session.svelte.ts';
 import { SvelteMap } from 'svelte/reactivity';
 
-export interface NodeRun {state: 'running' | 'done' | 'cached' | 'failed' | 'skipped'; fraction: number; seconds?: number; messages: string[]}
+export interface NodeRun {state: 'running' | 'done' | 'cached' | 'failed' | 'skipped'; fraction: number; seconds?: number; messages: string[]; revision: number}
 export interface Looked {level: string; node: string}
 export interface RunEvent {node: string; fraction?: number; seconds?: number; message?: string; because?: string}
 
@@ -32,6 +32,9 @@ class Runs {
     this.plan.clear();
     for (const stage of plan.stages ?? []) this.plan.set(stage.node, stage);
     this.summary = plan.stages?.length ? plan.summary ?? '' : '';
+    // What failed before the graph was changed may be right by now.
+    for (const [name, run] of this.nodes)
+      if (['failed', 'skipped'].includes(run.state) && run.revision !== session.document?.revision) this.nodes.delete(name);
     this.#then.summary ??= this.summary;
     if (this.#then.revision !== session.document?.revision || this.#then.summary !== this.summary) this.last = null;
   }
@@ -52,7 +55,7 @@ class Runs {
     const state = kind === 'start' || kind === 'progress' ? 'running' : kind === 'note' ? before?.state ?? 'done'
       : kind as NodeRun['state'];
     this.nodes.set(node, {
-      state, messages, seconds: event.seconds,
+      state, messages, revision: session.document?.revision ?? 0, seconds: event.seconds,
       fraction: kind === 'progress' ? event.fraction ?? 0 : state === 'running' ? 0 : 1,
     });
   }

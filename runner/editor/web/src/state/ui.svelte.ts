@@ -46,6 +46,8 @@ class Ui {
   viewDock = $state<Dock>(stored<Dock>('viewDock', 'right'));
   viewOpen = $state(stored('viewOpen', true));
   minimap = $state(stored('minimap', true));
+  /// Dragging on the empty canvas selects; it moves the canvas with the middle button only.
+  marquee = $state(stored('marquee', false));
   /// Typed into the text of the document and not applied; null: the text is the document's.
   draft = $state<string | null>(null);
   /// The document's text when that was begun.
@@ -61,8 +63,8 @@ class Ui {
   }
 
   keep() {
-    const {theme, panel, viewShare, viewDock, viewOpen, minimap} = this;
-    for (const [key, value] of Object.entries({theme, panel, viewShare, viewDock, viewOpen, minimap}))
+    const {theme, panel, viewShare, viewDock, viewOpen, minimap, marquee} = this;
+    for (const [key, value] of Object.entries({theme, panel, viewShare, viewDock, viewOpen, minimap, marquee}))
       localStorage.setItem('terrazzo.' + key, JSON.stringify(value));
   }
 
