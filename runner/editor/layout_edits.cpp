@@ -114,6 +114,20 @@ NodePlace middle_of(const Positions& places) {
   return {std::round(out.x), std::round(out.y), false};
 }
 
+/// Moves what stands to the right of a column by the width that new nodes take there.
+void make_room(LevelLayout& layout, const std::set<std::string>& added, double column, double by) {
+  const auto is_right = [&](double x) { return x > column + 1; };
+  for (auto& [name, place] : layout.nodes)
+    if (!added.contains(name) && is_right(place.x)) place.x += by;
+  for (auto& entry : layout.frames) {
+    LayoutFrame& f = entry.second;
+    if (is_right(f.x))
+      f.x += by;
+    else if (is_right(f.x + f.width))
+      f.width += by;
+  }
+}
+
 }  // namespace
 
 std::map<std::string, LevelLayout> complete_layout(std::string_view text,
@@ -235,8 +249,21 @@ void LayoutEdits::place_added(const EditedText& changed, const nlohmann::ordered
       for (const JsonMember& m : nodes->members)
         if (names.contains(m.name)) own.members.push_back(m);
       LevelLayout& layout = frozen(level);
-      for (const auto& [name, place] : Arrangement(*document, own).automatic())
-        layout.nodes[name] = {place.x + corner.x, place.y + corner.y, false};
+      Positions block = Arrangement(*document, own).automatic();
+      double right = corner.x;
+      for (auto& [name, place] : block) {
+        place = {place.x + corner.x, place.y + corner.y, false};
+        right = std::max(right, place.x);
+      }
+      if (was != ungrouped.end()) {
+        make_room(layout, names, corner.x, right - corner.x);
+        Positions others;
+        for (const JsonMember& m : nodes->members)
+          if (const auto at = layout.nodes.find(m.name); at != layout.nodes.end() && !names.contains(m.name))
+            others.insert(*at);
+        block = Arrangement(*document, *nodes).clear_of(std::move(block), others);
+      }
+      for (const auto& [name, place] : block) layout.nodes[name] = place;
     } else if (const auto known = levels_.find(level); known != levels_.end() && !known->second.nodes.empty()) {
       frozen(level);
     }

@@ -80,7 +80,7 @@ export const named = (picture: Picture) => picture.map ?? picture.output;
 function best(pictures: Picture[], map: string | undefined): Picture | undefined {
   const candidates = pictures.filter((p) => named(p) === map);
   const among = candidates.length ? candidates : pictures.filter((p) => named(p) === named(pictures.find((q) => q.map === 'base_color') ?? pictures[0]!));
-  return among.find((p) => p.of === 'full' && !p.stale) ?? among.find((p) => p.of === 'preview') ?? among[0];
+  return among[0];
 }
 
 export const look = new Look();

@@ -15,7 +15,7 @@ class Runs {
   last = $state.raw<{ok: boolean; seconds: number; cancelled: boolean; files: string[]} | null>(null);
   /// What the graph was at the end of that run, and what was planned after it: if either is another, the run is history.
   #then: {revision: number; summary?: string} = {revision: 0};
-  /// By level and node, the newest of each output, map and resolution.
+  /// By level and node, the newest of each output and map.
   pictures = new SvelteMap<string, Picture[]>();
   looked = $state.raw<Looked | null>(null);
   /// What a histogram is wanted of.
@@ -42,7 +42,7 @@ class Runs {
   takePicture(picture: Picture) {
     const key = picture.level + '/' + picture.node;
     const others = (this.pictures.get(key) ?? []).filter(
-      (p) => p.output !== picture.output || p.map !== picture.map || p.of !== picture.of);
+      (p) => p.output !== picture.output || p.map !== picture.map);
     this.pictures.set(key, [...others, picture]);
   }
 

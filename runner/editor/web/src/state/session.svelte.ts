@@ -99,7 +99,7 @@ class Session {
       base: this.document?.revision ?? 0, label, tab, ...(gesture ? {gesture} : {}), edits: edits.map((edit) => ({level, ...edit})),
     });
     // What else went away with what was removed.
-    if (answer.taken?.length) this.say(answer.taken.join('\n'));
+    if (answer.taken?.length) this.say(answer.taken.length === 1 && answer.taken[0]!.includes(' no longer ') ? answer.taken[0]! : `Also gone: ${answer.taken.join('; ')}`);
     await this.#shown(answer.revision);
     return answer.names ?? [];
   }

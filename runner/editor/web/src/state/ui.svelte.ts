@@ -31,9 +31,9 @@ class Ui {
   palette = $state.raw<PaletteRequest | null>(null);
   menu = $state.raw<{at: Point; items: MenuItem[]; label: string} | null>(null);
   /// From an output of the node; or, with a port, from wherever to that input.
-  connecting = $state.raw<{node: string; port?: string} | null>(null);
+  connecting = $state.raw<{node: string; port?: string; at?: Point} | null>(null);
   /// A value: into the parameter of a node, or from a parameter of the graph, into one of that node or of any.
-  wiringFrom = $state.raw<{node: string; param: string} | null>(null);
+  wiringFrom = $state.raw<{node: string; param: string; at?: Point} | null>(null);
   wiringTo = $state.raw<{name: string; node?: string; at?: Point} | null>(null);
   asking = $state.raw<Asked | null>(null);
   choosingFile = $state.raw<{value: string; choose: (path: string) => void} | null>(null);
