@@ -26,27 +26,33 @@ function lines(ends: number[], spans: (readonly [number, number])[], clear: numb
 
 /// The least first.
 class Queue {
-  #items: [cost: number, state: number][] = [];
+  #costs: number[] = [];
+  #states: number[] = [];
   push(cost: number, state: number) {
-    const items = this.#items;
-    let at = items.push([cost, state]) - 1;
-    for (let up = (at - 1) >> 1; at > 0 && items[up]![0] > cost; at = up, up = (at - 1) >> 1) items[at] = items[up]!;
-    items[at] = [cost, state];
-  }
-  pop(): number | undefined {
-    const items = this.#items, first = items[0], last = items.pop();
-    if (!first || !last) return undefined;
-    if (items.length) {
-      let at = 0;
-      for (let down = 1; down < items.length; down = 2 * at + 1) {
-        if (down + 1 < items.length && items[down + 1]![0] < items[down]![0]) ++down;
-        if (items[down]![0] >= last[0]) break;
-        items[at] = items[down]!;
-        at = down;
-      }
-      items[at] = last;
+    const costs = this.#costs, states = this.#states;
+    let at = costs.length;
+    for (let up = (at - 1) >> 1; at > 0 && costs[up]! > cost; at = up, up = (at - 1) >> 1) {
+      costs[at] = costs[up]!;
+      states[at] = states[up]!;
     }
-    return first[1];
+    costs[at] = cost;
+    states[at] = state;
+  }
+  /// -1: there is none.
+  pop(): number {
+    const costs = this.#costs, states = this.#states, first = states[0] ?? -1, cost = costs.pop()!, state = states.pop()!, count = costs.length;
+    if (first < 0 || !count) return first;
+    let at = 0;
+    for (let down = 1; down < count; down = 2 * at + 1) {
+      if (down + 1 < count && costs[down + 1]! < costs[down]!) ++down;
+      if (costs[down]! >= cost) break;
+      costs[at] = costs[down]!;
+      states[at] = states[down]!;
+      at = down;
+    }
+    costs[at] = cost;
+    states[at] = state;
+    return first;
   }
 }
 
@@ -72,7 +78,7 @@ function between(begin: Point, end: Point, boxes: Box[], lane: number): Point[] 
   const state = (p: Point) => 2 * (ys.indexOf(p.y) * width + xs.indexOf(p.x)), goal = state(end), start = state(begin);
   cost[start] = 0;
   queue.push(0, start);
-  for (let now = queue.pop(); now !== undefined && now !== goal; now = queue.pop()) {
+  for (let now = queue.pop(); now >= 0 && now !== goal; now = queue.pop()) {
     const place = now >> 1, turned = now & 1, x = place % width, y = (place - x) / width;
     const go = (next: number, isDown: 0 | 1, length: number, isClose: boolean) => {
       const total = cost[now]! + length + (isDown === turned ? 0 : bendCost) + (isClose && isDown !== turned ? closeCost : 0), to = 2 * next + isDown;
@@ -105,10 +111,18 @@ const meets = (b: Box, p: Point, q: Point) => Math.min(p.x, q.x) < b.x + b.width
   Math.min(p.y, q.y) < b.y + b.height && Math.max(p.y, q.y) > b.y;
 
 const courses = new Map<string, Point[]>();
+/// By ends only: what is kept while cards move.
+const latest = new Map<string, Point[]>();
+function remember(map: Map<string, Point[]>, key: string, course: Point[]) {
+  if (map.size > 2000) map.clear();
+  map.set(key, course);
+}
 
 /// From the right side of a card to the left side of another; `lane`, 0 to 4, keeps wires of several outputs apart. Where
-/// every way is barred, cards in the way are passed behind.
-export function courseAround(source: Point, target: Point, boxes: Box[], lane: number): Point[] {
+/// every way is barred, cards in the way are passed behind. While cards move, a course that is still free stays.
+export function courseAround(source: Point, target: Point, boxes: Box[], lane: number, moves: boolean): Point[] {
+  const ends = [source.x, source.y, target.x, target.y, lane].join(), before = latest.get(ends);
+  if (moves && before && !boxes.some((b) => before.some((p, i) => i > 0 && meets(b, before[i - 1]!, p)))) return before;
   const stub = 14 + 3 * lane, begin = {x: source.x + stub, y: source.y}, end = {x: target.x - stub, y: target.y};
   const within = (far: number) => {
     const left = Math.min(begin.x, end.x) - far, right = Math.max(begin.x, end.x) + far;
@@ -116,9 +130,9 @@ export function courseAround(source: Point, target: Point, boxes: Box[], lane: n
     return boxes.filter((b) => b.x < right && b.x + b.width > left && b.y < bottom && b.y + b.height > top);
   };
   const near = within(reach);
-  // While a node is dragged, most courses stay as they are.
-  const key = [source.x, source.y, target.x, target.y, lane, ...near.flatMap((b) => [b.x, b.y, b.width, b.height])].join();
+  const key = [ends, ...near.flatMap((b) => [b.x, b.y, b.width, b.height])].join();
   const known = courses.get(key);
+  if (known) remember(latest, ends, known);
   if (known) return known;
   const isFree = (b: Box) => !holds(b, begin) && !holds(b, end);
   const find = (among: Box[]) => between(begin, end, among.filter(isFree), lane);
@@ -126,8 +140,8 @@ export function courseAround(source: Point, target: Point, boxes: Box[], lane: n
   if (!found || boxes.some((b) => isFree(b) && found!.some((p, i) => i > 0 && meets(b, found![i - 1]!, p)))) found = find(within(3 * reach)) ?? found;
   const course = [source, ...(found ?? [begin, {x: begin.x, y: end.y}, end]), target];
   const straight = course.filter((p, i) => !(course[i - 1]?.y === p.y && course[i + 1]?.y === p.y));
-  if (courses.size > 1000) courses.clear();
-  courses.set(key, straight);
+  remember(courses, key, straight);
+  remember(latest, ends, straight);
   return straight;
 }
 

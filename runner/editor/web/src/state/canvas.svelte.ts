@@ -28,6 +28,8 @@ class Canvas {
   /// What wires lead around.
   boxes = $derived(this.nodes.filter((n) => n.type !== 'frame').map(rectangle));
 
+  moves = $derived(this.nodes.some((n) => n.dragging));
+
   selected = $derived(this.nodes.filter((n) => n.selected && n.type === 'card').map((n) => n.id));
   selectedFrames = $derived(this.nodes.filter((n) => n.selected && n.type === 'frame').map((n) => n.id.slice(6)));
   selectedWires = $derived(this.edges.filter((e) => e.selected).map((e) => e.id));
