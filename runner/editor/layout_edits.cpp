@@ -114,16 +114,23 @@ NodePlace middle_of(const Positions& places) {
   return {std::round(out.x), std::round(out.y), false};
 }
 
-/// Moves what stands to the right of a column by the width that new nodes take there.
-void make_room(LevelLayout& layout, const std::set<std::string>& added, double column, double by) {
-  const auto is_right = [&](double x) { return x > column + 1; };
+/// Moves what stands to the right of a block of new nodes, in its rows, by the width that they take there.
+void make_room(LevelLayout& layout, const Positions& block) {
+  constexpr double beside = 120;  // about a card's height
+  const auto by_x = [](const auto& a, const auto& b) { return a.second.x < b.second.x; };
+  const auto by_y = [](const auto& a, const auto& b) { return a.second.y < b.second.y; };
+  const auto [left, right] = std::ranges::minmax_element(block, by_x);
+  const auto [top, bottom] = std::ranges::minmax_element(block, by_y);
+  const double column = left->second.x, by = right->second.x - column;
+  const double low = top->second.y - beside, high = bottom->second.y + beside;
   for (auto& [name, place] : layout.nodes)
-    if (!added.contains(name) && is_right(place.x)) place.x += by;
+    if (!block.contains(name) && place.x > column + 1 && place.y > low && place.y < high) place.x += by;
   for (auto& entry : layout.frames) {
     LayoutFrame& f = entry.second;
-    if (is_right(f.x))
+    if (f.y + f.height < low || f.y > high) continue;
+    if (f.x > column + 1)
       f.x += by;
-    else if (is_right(f.x + f.width))
+    else if (f.x + f.width > column + 1)
       f.width += by;
   }
 }
@@ -250,13 +257,9 @@ void LayoutEdits::place_added(const EditedText& changed, const nlohmann::ordered
         if (names.contains(m.name)) own.members.push_back(m);
       LevelLayout& layout = frozen(level);
       Positions block = Arrangement(*document, own).automatic();
-      double right = corner.x;
-      for (auto& [name, place] : block) {
-        place = {place.x + corner.x, place.y + corner.y, false};
-        right = std::max(right, place.x);
-      }
-      if (was != ungrouped.end()) {
-        make_room(layout, names, corner.x, right - corner.x);
+      for (auto& [name, place] : block) place = {place.x + corner.x, place.y + corner.y, false};
+      if (was != ungrouped.end() && !block.empty()) {
+        make_room(layout, block);
         Positions others;
         for (const JsonMember& m : nodes->members)
           if (const auto at = layout.nodes.find(m.name); at != layout.nodes.end() && !names.contains(m.name))

@@ -165,7 +165,7 @@ export function group() {
   }, 'The name of the subgraph and of its node.');
 }
 
-export const ungroup = (node: string) => session.edit(`ungroup ${node}`, {op: 'ungroup', node});
+export const ungroup = (node: string) => session.edit(`ungroup ${node}`, {op: 'ungroup', node}).then(selectAdded);
 
 export type Alignment = 'left' | 'right' | 'top' | 'middle' | 'columns' | 'rows';
 export function align(how: Alignment) {

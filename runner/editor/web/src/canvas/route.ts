@@ -5,6 +5,8 @@ import type { Box } from './model.ts';
 
 /// What a wire keeps away from cards; what a bend costs in length, and what a piece that passes close by a card.
 const margin = 6, bendCost = 60, closeCost = 14;
+/// Beside each other.
+export const lanes = 7;
 /// Cards farther from both ends are looked at only where the first course runs into one.
 const reach = 320;
 
@@ -57,7 +59,7 @@ class Queue {
 }
 
 function between(begin: Point, end: Point, boxes: Box[], lane: number): Point[] | null {
-  const clear = margin + 3 + 2 * lane, shift = 5 * (lane - 2);
+  const clear = margin + 3 + 1.5 * lane, shift = 4 * (lane - (lanes - 1) / 2);
   const columns = lines([begin.x, end.x], boxes.map((b) => [b.x, b.x + b.width] as const), clear, shift);
   const rows = lines([begin.y, end.y], boxes.map((b) => [b.y, b.y + b.height] as const), clear, shift);
   const xs = columns.at, ys = rows.at, width = xs.length, across = new Uint8Array(width * ys.length), down = new Uint8Array(width * ys.length);
@@ -118,12 +120,12 @@ function remember(map: Map<string, Point[]>, key: string, course: Point[]) {
   map.set(key, course);
 }
 
-/// From the right side of a card to the left side of another; `lane`, 0 to 4, keeps wires of several outputs apart. Where
+/// From the right side of a card to the left side of another; `lane` keeps wires of several outputs apart. Where
 /// every way is barred, cards in the way are passed behind. While cards move, a course that is still free stays.
 export function courseAround(source: Point, target: Point, boxes: Box[], lane: number, moves: boolean): Point[] {
   const ends = [source.x, source.y, target.x, target.y, lane].join(), before = latest.get(ends);
   if (moves && before && !boxes.some((b) => before.some((p, i) => i > 0 && meets(b, before[i - 1]!, p)))) return before;
-  const stub = 14 + 3 * lane, begin = {x: source.x + stub, y: source.y}, end = {x: target.x - stub, y: target.y};
+  const stub = 12 + 2.5 * lane, begin = {x: source.x + stub, y: source.y}, end = {x: target.x - stub, y: target.y};
   const within = (far: number) => {
     const left = Math.min(begin.x, end.x) - far, right = Math.max(begin.x, end.x) + far;
     const top = Math.min(begin.y, end.y) - far, bottom = Math.max(begin.y, end.y) + far;

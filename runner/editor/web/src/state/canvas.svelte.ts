@@ -1,4 +1,5 @@
 // The canvas as other parts of the page see it: what is selected, and where to look.
+import { lanes } from '../canvas/route.ts';
 import { edgesOf, nodesOf, rectangle, wireOf, type CanvasNode, type WireEdge } from '../canvas/model.ts';
 import type { Point } from './ui.svelte.ts';
 import { session } from './session.svelte.ts';
@@ -28,6 +29,8 @@ class Canvas {
   /// What wires lead around.
   boxes = $derived(this.nodes.filter((n) => n.type !== 'frame').map(rectangle));
 
+  /// By output, so that wires that go the same way lie beside each other.
+  lanes = $derived(new Map([...new Set(this.edges.map((e) => `${e.source}.${e.sourceHandle}`))].map((output, index) => [output, index % lanes])));
   moves = $derived(this.nodes.some((n) => n.dragging));
 
   selected = $derived(this.nodes.filter((n) => n.selected && n.type === 'card').map((n) => n.id));

@@ -32,9 +32,9 @@ class Runs {
     this.plan.clear();
     for (const stage of plan.stages ?? []) this.plan.set(stage.node, stage);
     this.summary = plan.stages?.length ? plan.summary ?? '' : '';
-    // What failed before the graph was changed may be right by now.
+    // What failed before the graph was changed may be right by now, and some nodes may be gone.
     for (const [name, run] of this.nodes)
-      if (['failed', 'skipped'].includes(run.state) && run.revision !== session.document?.revision) this.nodes.delete(name);
+      if (['failed', 'skipped'].includes(run.state) && run.revision !== session.document?.revision || this.plan.size && !this.plan.has(name)) this.nodes.delete(name);
     this.#then.summary ??= this.summary;
     if (this.#then.revision !== session.document?.revision || this.#then.summary !== this.summary) this.last = null;
   }
