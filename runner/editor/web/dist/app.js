@@ -1,4 +1,4 @@
-/* The graph editor of terrazzo. Sources: 6cb6fdec6ac606703bb3b784bf6a002de78145d519bb582206a8a861920a11dd
+/* The graph editor of terrazzo. Sources: ecff8cd2c036cc4ab75632f653b7168c2ed3e1402a5ba0ae1b75dd89eba130bc
  * Bundled with it:
  *
  * svelte 5.57.3:
