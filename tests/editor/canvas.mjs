@@ -131,7 +131,10 @@ scenarioWithClipboard('group, cut, find and the palette by help', async () => {
   await e.card('height').locator('.head').click();
   await e.card('soft').locator('.head').click({modifiers: ['Shift']});
   await e.press('Control+g');
-  await e.type('relief');
+  await e.type('no name');
+  await e.press('Enter');
+  await page.locator('.dialog [role=alert]', {hasText: 'expected a name of letters'}).waitFor();
+  await page.locator('.dialog input').fill('relief');
   await e.press('Enter');
   await e.saved(({nodes, graphs}) => nodes.relief && graphs.relief && !nodes.soft, 'two nodes are grouped');
   await focused(e, 'relief');

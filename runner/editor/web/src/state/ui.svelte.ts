@@ -11,7 +11,7 @@ export interface PaletteRequest {
 }
 
 /// Asks for a line of text. What the answer throws is shown, and can be mended.
-export interface Asked {title: string; value: string; hint?: string; answer: (text: string) => unknown}
+export interface Asked {title: string; value: string; hint?: string; refusal?: string; answer: (text: string) => unknown}
 
 export interface MenuItem {label: string; keys?: string; act?: () => void; disabled?: string | boolean; more?: MenuItem[]}
 
