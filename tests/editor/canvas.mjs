@@ -189,6 +189,8 @@ scenarioWithClipboard('group, cut, find and the palette by help', async () => {
   await e.card('relief').locator('.head').click();
   await e.press('Control+Shift+g');
   await e.saved(({nodes}) => !nodes.relief && Object.values(nodes).some((n) => n.type === 'blur' && n.radius === 3), 'the nodes are out again');
+  await page.waitForFunction(() => document.querySelectorAll('.svelte-flow__node-card.selected').length === 2);
+  await e.settle();
   // What the help says is found; so is what fits a wire, the most usual first.
   await page.locator('#canvas').focus();
   await e.press('Escape', 'Tab');

@@ -22,7 +22,8 @@ function selectAdded(names: string[] | null) {
   // The canvas takes the new state in an effect.
   requestAnimationFrame(() => {
     canvas.select(names);
-    requestAnimationFrame(() => focusNode(names[0]!));
+    // What was opened meanwhile keeps the keyboard.
+    requestAnimationFrame(() => { if (!ui.anyOpen()) focusNode(names[0]!); });
   });
 }
 
