@@ -76,9 +76,9 @@ screen.on('Page.screencastFrame', ({data, metadata, sessionId}) => {
   screen.send('Page.screencastFrameAck', {sessionId}).catch(() => undefined);  // the recording may have ended
 });
 let at = {x: 640, y: 400};
-async function go(to, seconds = 0.6) {
+async function go(to, seconds = 0.6, rate = 25) {
   const target = to.boundingBox ? await to.boundingBox().then((b) => ({x: b.x + b.width / 2, y: b.y + b.height / 2})) : to;
-  const from = at, steps = Math.max(4, Math.round(seconds * 25));
+  const from = at, steps = Math.max(4, Math.round(seconds * rate));
   for (let i = 1; i <= steps; ++i) {
     const part = i / steps, eased = part * part * (3 - 2 * part);
     await page.mouse.move(from.x + (target.x - from.x) * eased, from.y + (target.y - from.y) * eased);
@@ -126,8 +126,9 @@ const light = view.getByRole('slider', {name: 'light', exact: true}), track = aw
 const onTrack = (part) => ({x: track.x + track.width * part, y: track.y + track.height / 2});
 await go(onTrack(135 / 360));
 await page.mouse.down();
-await go(onTrack(0.95), 1.6);
-await go(onTrack(0.15), 2);
+// No faster than frames are kept: without a graphics card each step takes a while.
+await go(onTrack(0.95), 1.6, 8);
+await go(onTrack(0.15), 2, 8);
 await page.mouse.up();
 await pause(1.2);
 await screen.send('Page.stopScreencast');

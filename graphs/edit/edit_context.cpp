@@ -178,45 +178,53 @@ std::vector<std::string> without_wires(JsonValue& entry, const std::function<boo
   return ports;
 }
 
-std::vector<std::string> walk_preset_targets(
-    JsonValue& document, const std::function<bool(const std::string& level, std::string& node)>& act) {
-  std::vector<std::string> taken;
-  const auto keep = [&](std::string& target) {
-    std::string out, level;
-    size_t at = 0;
-    while (at < target.size()) {
-      const size_t end = std::min(target.find_first_of("./[", at), target.size());
-      if (end == target.size() && at == 0) return true;  // a parameter of the graph
-      std::string node = target.substr(at, end - at);
-      const JsonValue* graphs = document.find("graphs");
-      const JsonValue* graph = level.empty() ? &document : graphs ? graphs->find(level) : nullptr;
-      const JsonValue* nodes = graph ? graph->find("nodes") : nullptr;
-      const JsonValue* use = nodes ? nodes->find(node) : nullptr;
-      const JsonValue* type = use ? use->find("type") : nullptr;
-      if (!use) return true;
-      const std::string inner = type && graphs && graphs->find(type->text) ? type->text : "";
-      if (!act(level, node)) return false;
-      out += node;
-      size_t next = end;
-      if (next < target.size() && target[next] == '[') next = std::min(target.find(']', next) + 1, target.size());
-      const bool is_path = next < target.size() && target[next] == '/';
-      out += target.substr(end, next - end + (is_path ? 1 : 0));
-      at = next + (is_path ? 1 : 0);
-      if (is_path && !inner.empty()) {
-        level = inner;
-        continue;
-      }
-      break;
+namespace {
+
+/// Walks along one target, "parameter" or "node/node.parameter", and renames its parts. False where a part is gone.
+bool walk_target(JsonValue& document, std::string& target, const TargetPart& on_node, const TargetPart& on_parameter) {
+  const JsonValue* graphs = document.find("graphs");
+  std::string out, level;
+  size_t at = 0;
+  for (bool is_path = target.find_first_of("./[") != target.npos; is_path;) {
+    const JsonValue* graph = level.empty() ? &document : graphs ? graphs->find(level) : nullptr;
+    const JsonValue* nodes = graph ? graph->find("nodes") : nullptr;
+    const size_t end = std::min(target.find_first_of("./[", at), target.size());
+    std::string node = target.substr(at, end - at);
+    const JsonValue* use = nodes ? nodes->find(node) : nullptr;
+    if (!use) return true;
+    const JsonValue* type = use->find("type");
+    if (on_node && !on_node(level, node)) return false;
+    size_t next = end;
+    if (next < target.size() && target[next] == '[') next = std::min(target.find(']', next) + 1, target.size());
+    is_path = next < target.size() && target[next] == '/';
+    if (next < target.size()) next++;  // the slash or dot
+    out += node + target.substr(end, next - end);
+    at = next;
+    if (type && graphs && graphs->find(type->text)) {
+      level = type->text;
+      continue;
     }
-    target = out + target.substr(std::min(at, target.size()));
+    target = out + target.substr(at);
     return true;
-  };
+  }
+  const size_t end = std::min(target.find('.', at), target.size());
+  std::string name = target.substr(at, end - at);
+  if (on_parameter && !on_parameter(level, name)) return false;
+  target = out + name + target.substr(end);
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::string> walk_preset_targets(JsonValue& document, const TargetPart& on_node,
+                                             const TargetPart& on_parameter) {
+  std::vector<std::string> taken;
   JsonValue* presets = document.find("presets");
   if (!presets) return taken;
   for (JsonMember& preset : presets->members)
     if (JsonValue* set = preset.value.find("set"))
       std::erase_if(set->members, [&](JsonMember& m) {
-        const bool goes = !keep(m.name);
+        const bool goes = !walk_target(document, m.name, on_node, on_parameter);
         if (goes)
           taken.push_back(fmt::format("the preset {} no longer sets {}", in_quotes(preset.name), in_quotes(m.name)));
         return goes;

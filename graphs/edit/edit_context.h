@@ -79,10 +79,14 @@ void rename_nodes(JsonValue& entry, const std::map<std::string, std::string>& na
 /// Takes the wires to nodes that are gone out of an entry. Returns the ports concerned.
 std::vector<std::string> without_wires(JsonValue& entry, const std::function<bool(const std::string& node)>& is_gone);
 
-/// Calls `act` for every node that a preset's target names, with its level; it may change the name. Targets for which
-/// it returns false are taken out; returns them.
-std::vector<std::string> walk_preset_targets(
-    JsonValue& document, const std::function<bool(const std::string& level, std::string& node)>& act);
+/// A node's or a parameter's name within a target of a preset, and the level that it belongs to. It may be changed;
+/// false takes the target out.
+using TargetPart = std::function<bool(const std::string& level, std::string& name)>;
+
+/// Calls `on_node` for every node that a preset's target leads through, and `on_parameter` for the parameter of a graph
+/// of the document that it sets; either may be empty. Returns what was taken out, in words.
+std::vector<std::string> walk_preset_targets(JsonValue& document, const TargetPart& on_node,
+                                             const TargetPart& on_parameter);
 
 /// Puts a wire into a port. Throws Error if it does not fit, naming both ends.
 void put_wire(EditContext& context, const std::string& from, const std::string& to, const std::string& port,

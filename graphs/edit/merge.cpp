@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "graphs/text/edit.h"
+#include "graphs/text/format.h"
 
 namespace terrazzo {
 
@@ -49,15 +50,23 @@ class Merge {
       if (mine.find(m.name)) continue;
       path.push_back(m.name);
       const JsonValue* there = theirs.find(m.name);
-      if (there && !same_value(m.value, *there)) refuse(path);
+      if (there && !same_value(m.value, *there)) refuse(path, nullptr, there);
       std::erase_if(theirs.members, [&](const JsonMember& t) { return t.name == m.name; });
       path.pop_back();
     }
   }
 
  private:
-  void refuse(const std::vector<std::string>& path) {
-    if (conflict.empty()) conflict = fmt::format("both have changed {}", pointer_of(path));
+  void refuse(const std::vector<std::string>& path, const JsonValue* mine, const JsonValue* theirs) {
+    const auto shown = [](const JsonValue* v) {
+      if (!v) return std::string("nothing");
+      constexpr size_t longest = 60;
+      const std::string text = compact(*v);
+      return text.size() <= longest ? text : found(*v);
+    };
+    if (conflict.empty())
+      conflict = fmt::format("both have changed {}: here to {}, elsewhere to {}", pointer_of(path), shown(mine),
+                             shown(theirs));
   }
 
   void member(const JsonValue* base, const JsonValue* mine, JsonValue& theirs, const JsonMember& m,
@@ -68,7 +77,7 @@ class Merge {
       static const JsonValue none = JsonValue::empty_object();
       objects(base ? *base : none, *mine, *there, path);
     } else if (!same_or_none(base, there)) {
-      refuse(path);
+      refuse(path, mine, there);
     } else if (there) {
       *there = *mine;
     } else {

@@ -100,10 +100,10 @@ void remove(EditContext& context) {
   for (const std::string& name : names) context.node(name);
   const auto is_gone = [&](const std::string& node) { return std::ranges::find(names, node) != names.end(); };
   std::vector<std::string>& taken = context.out.taken;
-  for (std::string& preset : walk_preset_targets(context.document, [&](const std::string&level, std::string&node) {
-         return level != context.level || !is_gone(node);
-       }))
-    taken.push_back(std::move(preset));
+  const TargetPart stays = [&](const std::string& level, std::string& node) {
+    return level != context.level || !is_gone(node);
+  };
+  for (std::string& preset : walk_preset_targets(context.document, stays, {})) taken.push_back(std::move(preset));
   JsonValue& nodes = context.section("nodes");
   std::erase_if(nodes.members, [&](const JsonMember& m) { return is_gone(m.name); });
   for (JsonMember& m : nodes.members)
@@ -127,10 +127,11 @@ void rename(EditContext& context) {
   context.node(from);
   if (from == to) return;
   check_name(context, to);
-  walk_preset_targets(context.document, [&](const std::string& level, std::string& node) {
+  const TargetPart follow = [&](const std::string& level, std::string& node) {
     if (level == context.level && node == from) node = to;
     return true;
-  });
+  };
+  walk_preset_targets(context.document, follow, {});
   const std::map<std::string, std::string> names = {{from, to}};
   for (const char* key : {"parameters", "nodes", "outputs"})
     if (JsonValue* entries = context.graph().find(key))

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -109,39 +108,33 @@ void rename_declaration(EditContext& context, const std::string& from, const std
   for (JsonMember& m : parameters.members)
     if (m.name == from) m.name = to;
   rename_in_uses(context, from, to);
-  if (JsonValue* presets = context.level.empty() ? context.document.find("presets") : nullptr)
-    for (JsonMember& preset : presets->members)
-      if (JsonValue* set = preset.value.find("set"))
-        for (JsonMember& m : set->members)
-          if (m.name == from) m.name = to;
+  const TargetPart follow = [&](const std::string& level, std::string& name) {
+    if (level == context.level && name == from) name = to;
+    return true;
+  };
+  walk_preset_targets(context.document, {}, follow);
 }
 
 /// What gives a value to a graph's parameter that is removed: presets, and where the graph is used, nodes.
 void remove_values(EditContext& context, const std::string& name) {
-  std::set<std::string> targets;
-  if (context.level.empty()) targets.insert(name);
+  // Before the nodes change: targets are read along them.
+  const TargetPart stays = [&](const std::string& level, std::string& target) {
+    return level != context.level || target != name;
+  };
+  const std::vector<std::string> presets = walk_preset_targets(context.document, {}, stays);
   const auto in_uses = [&](JsonValue& graph, const std::string& within) {
     JsonValue* uses = graph.find("nodes");
     if (!uses || context.level.empty()) return;
     for (JsonMember& node : uses->members) {
       const JsonValue* type = node.value.find("type");
-      if (!type || type->text != context.level) continue;
-      if (&graph == &context.document) targets.insert(node.name + "." + name);
-      if (erase_member(node.value, name))
-        context.out.taken.push_back(
-            fmt::format("{}{} no longer sets {}", in_quotes(node.name), within, in_quotes(name)));
+      if (!type || type->text != context.level || !erase_member(node.value, name)) continue;
+      context.out.taken.push_back(fmt::format("{}{} no longer sets {}", in_quotes(node.name), within, in_quotes(name)));
     }
   };
   in_uses(context.document, "");
   if (JsonValue* graphs = context.document.find("graphs"))
     for (JsonMember& m : graphs->members) in_uses(m.value, " in " + in_quotes(m.name));
-  if (JsonValue* presets = context.document.find("presets"))
-    for (JsonMember& preset : presets->members)
-      if (JsonValue* set = preset.value.find("set"))
-        for (const std::string& target : targets)
-          if (erase_member(*set, target))
-            context.out.taken.push_back(
-                fmt::format("the preset {} no longer sets {}", in_quotes(preset.name), in_quotes(target)));
+  context.out.taken.insert(context.out.taken.end(), presets.begin(), presets.end());
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ std::vector<size_t> row_ends(size_t columns, size_t rows, const std::vector<size
 
 /// Puts a long row of columns into several, one below the other, about twice as wide as high in all.
 void wrap(std::vector<Point>& corners, const std::vector<BoxSize>& boxes, const std::vector<LayoutWire>& wires) {
-  constexpr size_t most_columns = 9, fewest_in_row = 5;
+  constexpr size_t most_columns = 8, fewest_in_row = 4;
   constexpr double between_rows = 72, shape = 2, too_long = 4;
   std::map<double, size_t> columns;
   for (const Point& p : corners) columns.emplace(p.x, 0);
@@ -161,22 +161,36 @@ Arrangement::Positions Arrangement::completed(Positions known) const {
   return known;
 }
 
+double Arrangement::way_down(const NodePlace& place, size_t node, const Positions& others) const {
+  for (const auto& [name, other] : others) {
+    const auto at = positions_.find(name);
+    const double bottom = other.y + (at == positions_.end() ? bare_height : heights_[at->second]) +
+                          (other.pinned ? picture_height : 0) + room_below;
+    if (std::abs(other.x - place.x) < card_width && place.y < bottom && other.y < place.y + heights_[node] + room_below)
+      return bottom - place.y;
+  }
+  return 0;
+}
+
 NodePlace Arrangement::free_place(NodePlace place, size_t node, const Positions& known) const {
-  const auto bottom = [&](const std::pair<const std::string, NodePlace>& other) {
-    const auto at = positions_.find(other.first);
-    return other.second.y + (at == positions_.end() ? bare_height : heights_[at->second]) +
-           (other.second.pinned ? picture_height : 0) + room_below;
-  };
-  const auto covers = [&](const auto& other) {
-    return std::abs(other.second.x - place.x) < card_width && place.y < bottom(other) &&
-           other.second.y < place.y + heights_[node] + room_below;
-  };
   for (size_t tries = 0; tries <= known.size(); tries++) {
-    const auto at = std::ranges::find_if(known, covers);
-    if (at == known.end()) break;
-    place.y = bottom(*at);
+    const double down = way_down(place, node, known);
+    if (down == 0) break;
+    place.y += down;
   }
   return place;
+}
+
+Arrangement::Positions Arrangement::clear_of(Positions block, const Positions& others) const {
+  for (size_t tries = 0; tries <= others.size() * block.size(); tries++) {
+    double down = 0;
+    for (const auto& [name, place] : block)
+      if (const auto at = positions_.find(name); at != positions_.end())
+        down = std::max(down, way_down(place, at->second, others));
+    if (down == 0) break;
+    for (auto& entry : block) entry.second.y += down;
+  }
+  return block;
 }
 
 void Arrangement::sort() {

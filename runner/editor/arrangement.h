@@ -27,7 +27,12 @@ class Arrangement {
     return free_place(wanted, positions_.at(node), others);
   }
 
+  /// The nodes of a block, all moved down as far as none of them covers one of `others`.
+  Positions clear_of(Positions block, const Positions& others) const;
+
  private:
+  /// How far down the bottom of something is that the node would cover there; 0 if it covers nothing.
+  double way_down(const NodePlace& place, size_t node, const Positions& others) const;
   NodePlace free_place(NodePlace place, size_t node, const Positions& known) const;
   void sort();
 

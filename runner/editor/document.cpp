@@ -73,6 +73,16 @@ std::string edited_text(const EditRequest& edits, const EditRequest& request, co
   return text;
 }
 
+/// A text with a slip must not take the graph away unseen; `broken` in the edit says that it is meant.
+void refuse_slip(const EditRequest& edit, const std::string& before, const std::string& after) {
+  const auto meant = edit.find("broken");
+  if ((meant != edit.end() && *meant == true) || before == after || !parse_json(before).value) return;
+  const ParsedJson parsed = parse_json(after);
+  if (parsed.value) return;
+  const Problem& p = parsed.problems.back();
+  throw EditRefused(fmt::format("line {}, column {}: {}", p.place.line, p.place.column, p.message));
+}
+
 UndoStack::Key merging_key(const EditRequest& request, const EditRequest& edits) {
   const std::string tab = text_in(request, "tab") + '\n';
   if (const std::string gesture = text_in(request, "gesture"); !gesture.empty()) return {tab + gesture, true};
@@ -274,6 +284,7 @@ EditAnswer EditedDocument::edit(const EditRequest& request) {
   DocumentTexts after = d.now;
   if (is_op(edits[0], {"text"})) {
     after.graph = edited_text(edits, request, d.now.graph, d.revision);
+    refuse_slip(edits[0], d.now.graph, after.graph);
     if (label.empty()) label = "edit the text";
   } else {
     try {

@@ -114,6 +114,27 @@ NodePlace middle_of(const Positions& places) {
   return {std::round(out.x), std::round(out.y), false};
 }
 
+/// Moves what stands to the right of a block of new nodes, in its rows, by the width that they take there.
+void make_room(LevelLayout& layout, const Positions& block) {
+  constexpr double beside = 120;  // about a card's height
+  const auto by_x = [](const auto& a, const auto& b) { return a.second.x < b.second.x; };
+  const auto by_y = [](const auto& a, const auto& b) { return a.second.y < b.second.y; };
+  const auto [left, right] = std::ranges::minmax_element(block, by_x);
+  const auto [top, bottom] = std::ranges::minmax_element(block, by_y);
+  const double column = left->second.x, by = right->second.x - column;
+  const double low = top->second.y - beside, high = bottom->second.y + beside;
+  for (auto& [name, place] : layout.nodes)
+    if (!block.contains(name) && place.x > column + 1 && place.y > low && place.y < high) place.x += by;
+  for (auto& entry : layout.frames) {
+    LayoutFrame& f = entry.second;
+    if (f.y + f.height < low || f.y > high) continue;
+    if (f.x > column + 1)
+      f.x += by;
+    else if (f.x + f.width > column + 1)
+      f.width += by;
+  }
+}
+
 }  // namespace
 
 std::map<std::string, LevelLayout> complete_layout(std::string_view text,
@@ -235,8 +256,17 @@ void LayoutEdits::place_added(const EditedText& changed, const nlohmann::ordered
       for (const JsonMember& m : nodes->members)
         if (names.contains(m.name)) own.members.push_back(m);
       LevelLayout& layout = frozen(level);
-      for (const auto& [name, place] : Arrangement(*document, own).automatic())
-        layout.nodes[name] = {place.x + corner.x, place.y + corner.y, false};
+      Positions block = Arrangement(*document, own).automatic();
+      for (auto& [name, place] : block) place = {place.x + corner.x, place.y + corner.y, false};
+      if (was != ungrouped.end() && !block.empty()) {
+        make_room(layout, block);
+        Positions others;
+        for (const JsonMember& m : nodes->members)
+          if (const auto at = layout.nodes.find(m.name); at != layout.nodes.end() && !names.contains(m.name))
+            others.insert(*at);
+        block = Arrangement(*document, *nodes).clear_of(std::move(block), others);
+      }
+      for (const auto& [name, place] : block) layout.nodes[name] = place;
     } else if (const auto known = levels_.find(level); known != levels_.end() && !known->second.nodes.empty()) {
       frozen(level);
     }

@@ -140,6 +140,7 @@ scenario('break and repair a wire', async () => {
   const e = await Editor.open(stock('material')), {page} = e;
   await e.press('f');
   await e.settle();
+  assert.deepEqual(await e.hiddenWires(), []);
   // What does not fit is refused, and says why.
   await e.drag(e.port('index', 'index', 'source'), e.port('files', 'material', 'target'));
   await e.toast('index gives an index');
@@ -155,6 +156,28 @@ scenario('break and repair a wire', async () => {
   await e.drag(e.port('elements', 'features', 'source'), e.port('space', 'features', 'target'));
   await e.saved(({nodes}) => nodes.space.features === '@elements', 'the wire is back');
   await page.waitForFunction(() => !document.querySelector('.count.error'));
+  // Escape leaves a drag: of a wire, and of a node.
+  const at = async (place) => { const b = await place.boundingBox(); await page.mouse.move(b.x + b.width / 2, b.y + b.height / 2); };
+  const {text} = e;
+  await at(e.port('elements', 'features', 'target'));
+  await page.mouse.down();
+  await at(e.port('layout', 'coarse', 'target'));
+  await e.press('Escape');
+  await page.mouse.up();
+  await at(e.card('lattice').locator('.name'));
+  await page.mouse.down();
+  await page.mouse.move(300, 700, {steps: 4});
+  await e.press('Escape');
+  await page.mouse.up();
+  await page.waitForTimeout(200);
+  assert.equal(e.text, text, 'nothing has changed');
+  assert.equal(await page.locator('.picker').count(), 0);
+  // The input's own handle lets a wire go, too: to another input, or to nowhere.
+  await e.drag(e.port('index', 'appearance', 'target'), {x: 300, y: 740});
+  await e.saved(({nodes}) => nodes.index.appearance === undefined, 'the handle lets the wire go');
+  await e.toCanvas();
+  await e.press('Control+z');
+  await e.saved(({nodes}) => nodes.index.appearance === '@space', 'and it comes back');
   // By keyboard: W selects a wire, Delete removes it.
   await e.card('index').click();
   await e.press('w', 'Delete');

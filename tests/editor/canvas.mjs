@@ -111,6 +111,7 @@ scenario('bend a wire', async () => {
 scenario('drop a node on a wire', async () => {
   const e = await open(line()), {page} = e;
   await e.settle();
+  assert.deepEqual(await e.hiddenWires(), []);
   const from = await e.port('height', 'image', 'source').boundingBox(), to = await e.port('soft', 'image', 'target').boundingBox();
   const head = await e.card('spare').locator('.head').boundingBox(), card = await e.card('spare').boundingBox();
   const middle = {x: (from.x + to.x) / 2 + 5, y: (from.y + to.y) / 2 + 5};
@@ -130,7 +131,10 @@ scenarioWithClipboard('group, cut, find and the palette by help', async () => {
   await e.card('height').locator('.head').click();
   await e.card('soft').locator('.head').click({modifiers: ['Shift']});
   await e.press('Control+g');
-  await e.type('relief');
+  await e.type('no name');
+  await e.press('Enter');
+  await page.locator('.dialog [role=alert]', {hasText: 'expected a name of letters'}).waitFor();
+  await page.locator('.dialog input').fill('relief');
   await e.press('Enter');
   await e.saved(({nodes, graphs}) => nodes.relief && graphs.relief && !nodes.soft, 'two nodes are grouped');
   await focused(e, 'relief');
@@ -185,6 +189,8 @@ scenarioWithClipboard('group, cut, find and the palette by help', async () => {
   await e.card('relief').locator('.head').click();
   await e.press('Control+Shift+g');
   await e.saved(({nodes}) => !nodes.relief && Object.values(nodes).some((n) => n.type === 'blur' && n.radius === 3), 'the nodes are out again');
+  await page.waitForFunction(() => document.querySelectorAll('.svelte-flow__node-card.selected').length === 2);
+  await e.settle();
   // What the help says is found; so is what fits a wire, the most usual first.
   await page.locator('#canvas').focus();
   await e.press('Escape', 'Tab');

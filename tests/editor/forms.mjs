@@ -115,6 +115,30 @@ scenario('parameters of the graph, loops and comments', async () => {
   await e.saved(({nodes, parameters}) => parameters.blur && nodes.soft.radius === '$blur', 'expressions follow a new name');
   await menu('amount', 'Remove');
   await e.saved(({parameters}) => !parameters.amount, 'a parameter is removed');
+  // Values by handle: by keyboard from the node's side, by mouse from the graph's, and none again.
+  await e.card('stones').locator('.head').click();
+  await page.getByRole('button', {name: 'stones.seed: where its value comes from'}).focus();
+  await e.press('Enter');
+  await e.type('new');
+  await e.press('Enter');
+  await page.locator('.dialog input').waitFor();
+  await e.press('Enter');
+  await e.saved(({nodes, parameters}) => nodes.stones.seed === '$seed' && parameters.seed.default === 1, 'a handle makes a parameter');
+  await e.toCanvas();
+  await e.press('Escape');
+  await e.drag(page.getByRole('button', {name: 'blur: what takes its value'}), e.card('height'));
+  await e.toast('No parameter of height takes blur');
+  await e.drag(page.getByRole('button', {name: 'seed: what takes its value'}), e.card('soft'));
+  await e.saved(({nodes}) => nodes.soft.radius === '$seed', 'a value is dragged to a node');
+  await page.getByRole('button', {name: 'blur: what takes its value'}).click();
+  await e.type('soft.radius');
+  await e.press('Enter');
+  await e.saved(({nodes}) => nodes.soft.radius === '$blur', 'a value goes to a parameter');
+  await e.card('stones').locator('.head').click();
+  await page.getByRole('button', {name: 'stones.seed: where its value comes from'}).click();
+  await page.locator('.picker .row', {hasText: 'nothing'}).click();
+  await e.saved(({nodes}) => nodes.stones.seed === undefined, 'and is taken away');
+  await page.locator('.pin.wired').waitFor({state: 'detached'});
   // Comment, loop and mute, from the form.
   await e.card('soft').locator('.head').click();
   await field(e, 'comment').locator('textarea').fill('two lines\nof it');

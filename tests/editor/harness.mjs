@@ -138,6 +138,22 @@ export class Editor {
     await mouse.up();
   }
 
+  /// The wires that pass behind a card which they do not end at.
+  hiddenWires() {
+    return this.page.evaluate(() => {
+      const cards = [...document.querySelectorAll('.svelte-flow__node-card')].map((n) => [n.dataset.id, n.getBoundingClientRect()]);
+      return [...document.querySelectorAll('.svelte-flow__edge')].flatMap((edge) => {
+        const path = edge.querySelector('path'), length = path.getTotalLength(), matrix = path.getScreenCTM(), found = new Set();
+        for (let step = 0; step <= 80; ++step) {
+          const at = path.getPointAtLength(length * step / 80).matrixTransform(matrix);
+          for (const [name, b] of cards)
+            if (at.x > b.left + 2 && at.x < b.right - 2 && at.y > b.top + 2 && at.y < b.bottom - 2) found.add(`${edge.dataset.id} behind ${name}`);
+        }
+        return [...found];
+      });
+    });
+  }
+
   /// By axe-core's rules: all of them, or these.
   async accessible(where, rules) {
     await this.page.evaluate(axe + ';0');

@@ -93,8 +93,7 @@ void PictureBoard::show(const Wish& wish, const std::string& output, const Value
                   {"height", one.size.height},
                   {"of", is_exact ? "full" : "preview"},
                   {"coarse", false},
-                  {"semantic", one.semantic},
-                  {"stale", false}});
+                  {"semantic", one.semantic}});
     if (one.exemplar) event["exemplar"] = {{"width", one.exemplar->width}, {"height", one.exemplar->height}};
     send(wish, output, one.map, event, cancelled);
     maps.insert(one.map);
@@ -105,12 +104,13 @@ void PictureBoard::show(const Wish& wish, const std::string& output, const Value
   std::erase_if(shown.events, [&](const auto& event) { return !maps.contains(event.first); });
 }
 
-void PictureBoard::show_coarse(const Wish& wish, const std::string& output, const ImagePtr& image, Size full,
+void PictureBoard::show_coarse(const Wish& wish, const Port& output, const ImagePtr& image, Size full,
                                const std::atomic<bool>& cancelled) {
   const std::string digest = store_.add(picture_file(*image));
-  // A material's base colour comes first, and has the name of its map.
+  // What shows a material takes the place of its base colour, which is seen first.
   const bool is_drawing = image->info().color_space == "raw";
-  Json event = described(wish, output, "");
+  const std::string_view base_color = name_of(Semantic::base_color);
+  Json event = described(wish, output.name, std::string(output.type == ValueType::material ? base_color : ""));
   event.update({{"digest", digest},
                 {"url", url_of(digest)},
                 {"small", url_of(digest)},
@@ -118,13 +118,12 @@ void PictureBoard::show_coarse(const Wish& wish, const std::string& output, cons
                 {"height", full.height},
                 {"of", "preview"},
                 {"coarse", true},
-                {"semantic", is_drawing ? "uv" : "base_color"},
-                {"stale", false}});
+                {"semantic", is_drawing ? "uv" : base_color}});
   const std::lock_guard order(sending_);
   check(cancelled);
   publish_("picture", event, false);
   const std::lock_guard lock(mutex_);
-  shown_[{wish.at, output}].identity.clear();
+  shown_[{wish.at, output.name}].identity.clear();
 }
 
 void PictureBoard::retain(const std::vector<Wish>& wishes) {

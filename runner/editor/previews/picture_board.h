@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/node/node.h"
 #include "core/node/value.h"
 #include "runner/editor/previews/picture_store.h"
 #include "runner/editor/previews/wishes.h"
@@ -31,7 +32,7 @@ class PictureBoard {
   /// Shows an output's value. Throws Cancelled, and Error if pixels cannot be computed.
   void show(const Wish& wish, const std::string& output, const Value& value, const std::atomic<bool>& cancelled);
   /// Shows what an output will roughly be. `full`: the size of the result. Nothing once it is cancelled.
-  void show_coarse(const Wish& wish, const std::string& output, const ImagePtr& image, Size full,
+  void show_coarse(const Wish& wish, const Port& output, const ImagePtr& image, Size full,
                    const std::atomic<bool>& cancelled);
   /// Forgets the pictures of all other nodes.
   void retain(const std::vector<Wish>& wishes);

@@ -200,8 +200,7 @@ class Previews::CoarseLook {
       const ImagePtr display = shrunk_for_display(picture, t.wish.side);
       const std::lock_guard lock(mutex_);
       if (stops_) return;
-      owner_.board_.show_coarse(t.wish, graph_.find(t.node)->type->outputs.front().name, display, full,
-                                time_.cancelled());
+      owner_.board_.show_coarse(t.wish, graph_.find(t.node)->type->outputs.front(), display, full, time_.cancelled());
       if (t.wish == targets_.front().wish) time_.shown();
     }
   }

@@ -7,6 +7,7 @@ import {
 export type Shape = 'plane' | 'sphere' | 'cube';
 export interface LitSettings {
   shape: Shape; displacement: number; tiling: number; azimuth: number; elevation: number; turn: number; tilt: number;
+  distance: number;  // of the camera, 1: all is seen
 }
 /// `maps`: sources of pictures by what they mean, such as "base_color".
 export interface LitMaterial {width: number; height: number; maps: Record<string, string>; normal_y?: string}
@@ -72,7 +73,7 @@ function loaded(source: string, isColour: boolean): Promise<Texture | null> {
 
 export class LitView {
   readonly settings: LitSettings =
-    {shape: 'plane', displacement: 0.04, tiling: 1, azimuth: 135, elevation: 40, turn: 0, tilt: 30};
+    {shape: 'plane', displacement: 0.04, tiling: 1, azimuth: 135, elevation: 40, turn: 0, tilt: 30, distance: 1};
   readonly canvas: HTMLCanvasElement;
   #renderer: WebGLRenderer;
   #scene = new Scene();
@@ -100,8 +101,6 @@ export class LitView {
   resize(width: number, height: number) {
     this.#renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
-    // Farther away where the picture is narrow, so that all of it is seen.
-    this.#camera.position.set(0, 0, 3.9 * Math.max(1, height / width));
     this.#camera.updateProjectionMatrix();
     this.draw();
   }
@@ -161,9 +160,12 @@ export class LitView {
     material.displacementBias = -material.displacementScale / 2;
     const flat = Math.cos(s.elevation * radians);
     this.#light.position.set(flat * Math.cos(s.azimuth * radians), flat * Math.sin(s.azimuth * radians), Math.sin(s.elevation * radians));
-    this.#mesh.rotation.set(isPlane ? -s.tilt * radians : s.shape === 'cube' ? 0.45 : 0.2, 0, 0);
+    // A ball and a cube are seen a little from above at the usual tilt of a plane.
+    this.#mesh.rotation.set(isPlane ? -s.tilt * radians : (s.shape === 'cube' ? 0.45 : 0.2) + (30 - s.tilt) * radians, 0, 0);
     if (isPlane) this.#mesh.rotateZ(s.turn * radians);
     else this.#mesh.rotateY((s.turn + (s.shape === 'cube' ? 35 : 0)) * radians);
+    // Farther away where the picture is narrow, so that all of it is seen.
+    this.#camera.position.set(0, 0, 3.9 * s.distance * Math.max(1, 1 / this.#camera.aspect));
     this.#camera.lookAt(0, 0, 0);
   }
 
@@ -187,14 +189,14 @@ export class LitView {
     return sum / (3 * side * side);
   }
 
-  // Dragging moves the light; with Shift, or the right button, the material.
+  // Dragging turns the material; with Shift, or the right button, it moves the light.
   #followPointer() {
     const {canvas, settings} = this;
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
     canvas.addEventListener('pointerdown', (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener('pointermove', (event) => {
       if (!event.buttons) return;
-      if (event.shiftKey || event.buttons === 2) {
+      if (!event.shiftKey && event.buttons !== 2) {
         settings.turn += event.movementX * 0.5;
         settings.tilt = Math.min(80, Math.max(0, settings.tilt - event.movementY * 0.4));
       } else {

@@ -62,7 +62,7 @@ class Viewer {
     slider("tilt", "tilt", 0, 80, 1, degrees);
     const help = document.createElement("p");
     help.className = "quiet";
-    help.textContent = "Drag in the picture to move the light; with Shift or the right button to turn the material.";
+    help.textContent = "Drag in the picture to turn the material; with Shift or the right button to move the light.";
     form.append(help);
     return form;
   }

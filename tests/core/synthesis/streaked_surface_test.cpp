@@ -1,7 +1,9 @@
 #include "core/synthesis/streaked_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -72,6 +74,38 @@ TEST_CASE("streaks along y are those along x, turned") {
     for (int x = 0; x < 90; x++)
       goes_on += uv->at(x, y).y == uv->at(x, y - 1).y + 1 && uv->at(x, y).x == uv->at(x, y - 1).x;
   CHECK(goes_on > 90 * 203 * 3 / 4);
+}
+
+TEST_CASE("coarse levels of streaks are seen drawn out, in the proportions of the whole") {
+  for (const bool along_x : {true, false}) {
+    CAPTURE(along_x);
+    const IndexPtr index = index_of_streaks(along_x);
+    const Size size = along_x ? Size{304, 120} : Size{120, 304}, from = index->appearance()->size();
+    std::vector<UvMapPtr> shown;
+    const UvMapPtr whole =
+        synthesize(*index, {.size = size}, Task(nullptr, {}, [&](const UvMapPtr& coarse) { shown.push_back(coarse); }));
+    CHECK(whole->pixels() == synthesize(*index, {.size = size}, Task())->pixels());
+    REQUIRE(!shown.empty());
+    for (const UvMapPtr& uv : shown) {
+      CHECK(uv->exemplar() == from);
+      const int level = int(std::lround(std::log2(double(size.area()) / double(uv->size().area())) / 2));
+      CAPTURE(level);
+      CHECK(uv->size() == Size{size.width >> level, size.height >> level});
+      // Along a step, a pixel shows what lies a block of the exemplar farther on.
+      int64_t follows = 0, all = 0;
+      for (int y = along_x ? 0 : 1; y < uv->size().height; y++)
+        for (int x = along_x ? 1 : 0; x < uv->size().width; x++) {
+          if ((along_x ? x : y) % step == 0) continue;
+          const ExemplarPixel here = uv->at(x, y), before = uv->at(x - along_x, y - !along_x);
+          const int by = along_x ? here.x - before.x : here.y - before.y,
+                    aside = along_x ? here.y - before.y : here.x - before.x;
+          const bool is_cut = along_x ? here.x == from.width - 1 : here.y == from.height - 1;
+          follows += (by == 1 << level || is_cut) && aside == 0;
+          all++;
+        }
+      CHECK(follows == all);
+    }
+  }
 }
 
 TEST_CASE("parts of a surface of streaks are parts of the whole, bit for bit") {

@@ -74,6 +74,37 @@ TEST_CASE("a parameter that is removed leaves no values behind") {
   CHECK(two.text.find("tone") == two.text.npos);
 }
 
+TEST_CASE("presets follow the parameters of graphs within graphs") {
+  const std::string before = R"t({
+  "terrazzo": 1,
+  "graphs": {
+    "inner": {"parameters": {"tone": {"type": "number", "default": 0.5}},
+              "nodes": {"grey": {"type": "solid", "value": "=[tone]"}}, "outputs": {"image": "@grey"}},
+    "outer": {"nodes": {"b": {"type": "inner", "tone": 0.2}, "tone": {"type": "solid"}}, "outputs": {"image": "@b"}}
+  },
+  "nodes": {"a": {"type": "outer"}, "c": {"type": "inner"}, "wall": {"type": "pattern"}},
+  "presets": {"dark": {"set": {"a/b.tone": 0.1, "c.tone": 0.3, "a/tone.value": [0.4], "wall.tone": 1, "seed": 2}}}
+}
+)t";
+  const auto targets = [](const std::string& text) {
+    std::vector<std::string> out;
+    const JsonValue document = json_in(text);
+    for (const JsonMember& m : document.find("presets")->find("dark")->find("set")->members) out.push_back(m.name);
+    return out;
+  };
+  const std::string renamed =
+      after(before, R"t({"op": "parameter", "level": "inner", "name": "tone", "rename": "hue"})t");
+  CHECK(targets(renamed) == std::vector<std::string>{"a/b.hue", "c.hue", "a/tone.value", "wall.tone", "seed"});
+  CHECK(renamed.find("\"b\": {\"type\": \"inner\", \"hue\": 0.2}") != renamed.npos);
+  const EditedText removed =
+      edited(before, "/nowhere/wall.json",
+             json_in(R"t([{"op": "parameter", "level": "inner", "name": "tone", "set": null}])t"));
+  CHECK(targets(removed.text) == std::vector<std::string>{"a/tone.value", "wall.tone", "seed"});
+  CHECK(removed.taken == std::vector<std::string>{R"("b" in "outer" no longer sets "tone")",
+                                                  R"(the preset "dark" no longer sets "a/b.tone")",
+                                                  R"(the preset "dark" no longer sets "c.tone")"});
+}
+
 TEST_CASE("presets that cannot be are refused") {
   const std::string text = after(without_presets, R"t({"op": "preset", "name": "a", "set": {"set": {"seed": 7}}},
     {"op": "preset", "name": "b", "set": {"set": {"seed": 8}}})t");

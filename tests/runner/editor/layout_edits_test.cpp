@@ -139,6 +139,24 @@ TEST_CASE("a node that was ungrouped comes back where it was") {
     if (name != "stones" && name != "hard") CHECK(place.second > 650);
 }
 
+TEST_CASE("nodes that were ungrouped cover no others") {
+  LaidOut graph(R"({"terrazzo": 1, "nodes": {"a": {"type": "pattern"}, "b": {"type": "crop", "material": "@a"},
+    "c": {"type": "crop", "material": "@b"}, "d": {"type": "crop", "material": "@c"}, "e": {"type": "crop", "material": "@a"}}})");
+  graph.edit(
+      R"({"op": "move", "positions": {"a": [0, 0], "b": [240, 0], "c": [480, 0], "d": [720, 0], "e": [240, 70]}})");
+  graph.edit(R"({"op": "group", "nodes": ["b", "c"], "name": "part"})");
+  graph.edit(R"({"op": "move", "positions": {"part": [240, 0], "d": [480, 0]}})");
+  graph.edit(R"({"op": "ungroup", "node": "part"})");
+  const auto places = graph.places();
+  REQUIRE(places.size() == 5);
+  for (const auto& [one, at] : places)
+    for (const auto& [other, there] : places)
+      if (one < other)
+        CHECK_MESSAGE((std::abs(at.first - there.first) >= 176 || std::abs(at.second - there.second) >= 66), one, " ",
+                      other);
+  CHECK(places.at("d").first > places.at("c").first);
+}
+
 TEST_CASE("bends of wires follow names and go with their wires") {
   LaidOut graph(chain);
   const char* bend = R"({"op": "bend", "wire": "height.image > soft.image", "points": [[10, 20], [30.4, 40]]})";

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <fstream>
 #include <thread>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -86,4 +87,22 @@ TEST_CASE("a value that another edit has just changed is not overwritten unseen"
   put(folder.path() / "g.json", disk.replace(disk.find("\"seed\": 6"), 9, "\"seed\": 9"));
   CHECK(document.look_at_disk());
   CHECK_THROWS_AS(document.edit(since(seen, seed + "7}")), EditConflict);
+}
+
+TEST_CASE("clients on several threads share a document") {
+  const TemporaryFolder folder;
+  put(folder.path() / "g.json", small);
+  EditedDocument document(folder.path() / "g.json");
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; t++)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 25; i++) {
+        document.edit(edit_of(R"({"op": "add", "type": "crop"})"));
+        document.look_at_disk();
+        document.snapshot();
+      }
+    });
+  for (std::thread& t : threads) t.join();
+  CHECK(document.snapshot().text.find("\"crop_100\"") != std::string::npos);
+  CHECK(document.snapshot().saved);
 }

@@ -120,6 +120,7 @@ TEST_CASE("what a tab looks at is computed, coarse levels first, and is what a r
   const std::vector<Json> coarse = watched.pictures("result", true), whole = watched.pictures("result");
   REQUIRE(!coarse.empty());
   CHECK(coarse.back().at("semantic") == "base_color");
+  CHECK(coarse.back().at("map") == "base_color");  // in the place of which the true one comes
   for (const Json& e : coarse) {
     CHECK(e.at("width") == 512);
     CHECK(watched.store.find(e.at("digest")) != nullptr);

@@ -22,7 +22,8 @@ function selectAdded(names: string[] | null) {
   // The canvas takes the new state in an effect.
   requestAnimationFrame(() => {
     canvas.select(names);
-    requestAnimationFrame(() => focusNode(names[0]!));
+    // What was opened meanwhile keeps the keyboard.
+    requestAnimationFrame(() => { if (!ui.anyOpen()) focusNode(names[0]!); });
   });
 }
 
@@ -32,15 +33,13 @@ export async function connect(from: End, to: End, replace?: {node: string; port:
   if (why) return session.say(why, 'error');
   const edits: Edit[] = replace ? [{op: 'disconnect', ...replace}] : [];
   if (to.node === outputsId) {
-    const set = (name: string) => session.edit(`output ${name}`, ...edits, {op: 'output', name, from: reference(shownLevel(), from)});
-    if (to.port !== newPort) return void set(to.port);
-    return ui.ask('A new output of the subgraph', from.port, (name) => { if (name) void set(name); }, 'Its name.');
+    const set = (name: string) => session.tryEdit(`output ${name}`, ...edits, {op: 'output', name, from: reference(shownLevel(), from)});
+    if (to.port !== newPort) return void set(to.port).catch((error: unknown) => session.complain(error));
+    return ui.ask('A new output of the subgraph', from.port, (name) => name && set(name), 'Its name.');
   }
   if (from.port === newPort) {
     const {type, help} = inputPort(shownLevel(), to)!;
-    return ui.ask('A new input of the subgraph', to.port, (name) => {
-      if (name) void session.edit(`input ${name}`, {op: 'input', name, set: {type, help}}, {op: 'connect', from: name, to: to.node, port: to.port});
-    }, 'Its name.');
+    return ui.ask('A new input of the subgraph', to.port, (name) => name && session.tryEdit(`input ${name}`, {op: 'input', name, set: {type, help}}, {op: 'connect', from: name, to: to.node, port: to.port}), 'Its name.');
   }
   edits.push({op: 'connect', from: reference(shownLevel(), from), to: to.node, port: to.port});
   await session.edit(`connect ${from.node === inputsId ? from.port : from.node} to ${to.node}`, ...edits);
@@ -151,21 +150,23 @@ export function setOnSelected(key: 'mute' | 'pin') {
 
 export function rename(name: string) {
   if (isLocked()) return;
-  ui.ask('Rename the node', name, (to) => {
-    if (to && to !== name)
-      void session.edit(`rename ${name}`, {op: 'rename', node: name, to}).then((done) => done && selectAdded([to]));
+  ui.ask('Rename the node', name, async (to) => {
+    if (!to || to === name) return;
+    await session.tryEdit(`rename ${name}`, {op: 'rename', node: name, to});
+    selectAdded([to]);
   }, 'Wires and expressions follow.');
 }
 
 export function group() {
   if (isLocked()) return;
   const nodes = canvas.selected;
-  if (nodes.length) ui.ask('Group as a subgraph', uniqueName(session.level, 'part'), (name) =>
-    void session.edit(`group ${count(nodes)}`, {op: 'group', nodes, name}).then((done) => done && selectAdded([name])),
-    'The name of the subgraph and of its node.');
+  if (nodes.length) ui.ask('Group as a subgraph', uniqueName(session.level, 'part'), async (name) => {
+    await session.tryEdit(`group ${count(nodes)}`, {op: 'group', nodes, name});
+    selectAdded([name]);
+  }, 'The name of the subgraph and of its node.');
 }
 
-export const ungroup = (node: string) => session.edit(`ungroup ${node}`, {op: 'ungroup', node});
+export const ungroup = (node: string) => session.edit(`ungroup ${node}`, {op: 'ungroup', node}).then(selectAdded);
 
 export type Alignment = 'left' | 'right' | 'top' | 'middle' | 'columns' | 'rows';
 export function align(how: Alignment) {
@@ -182,8 +183,8 @@ export function align(how: Alignment) {
     if (how === 'right') positions[n.name] = [Math.max(...xs), n.y];
     if (how === 'top') positions[n.name] = [n.x, Math.min(...ys)];
     if (how === 'middle') positions[n.name] = [n.x, Math.round(middle - height(n) / 2)];
-    if (how === 'columns') { positions[n.name] = [next, n.y]; next += cardWidth + 48; }
-    if (how === 'rows') { positions[n.name] = [n.x, next]; next += height(n) + 24; }
+    if (how === 'columns') { positions[n.name] = [next, Math.min(...ys)]; next += cardWidth + 48; }
+    if (how === 'rows') { positions[n.name] = [Math.min(...xs), next]; next += height(n) + 24; }
   }
   void session.edit(`align ${count(canvas.selected)}`, {op: 'move', positions});
 }
@@ -204,7 +205,7 @@ export function retitle(id: string) {
   const frame = session.level.frames.find((f) => f.id === id);
   if (!frame || isLocked()) return;
   const {id: _, ...old} = frame;
-  ui.ask('Title of the frame', old.title, (title) => void session.edit('rename a frame', {op: 'frame', id, set: {...old, title}}));
+  ui.ask('Title of the frame', old.title, (title) => session.tryEdit('rename a frame', {op: 'frame', id, set: {...old, title}}));
 }
 
 export function frame() {
@@ -215,7 +216,7 @@ export function frame() {
   const y = nodes.length ? Math.min(...nodes.map((n) => n.y)) - 40 : centre.y - 100;
   const width = nodes.length ? Math.max(...nodes.map((n) => n.x + cardWidth)) + 20 - x : 300;
   const height = nodes.length ? Math.max(...nodes.map((n) => n.y + cardHeight(n, n.pinned))) + 20 - y : 200;
-  ui.ask('Frame', '', (title) => void session.edit('add a frame', {op: 'frame', set: {title, x, y, width, height}}), 'Its title.');
+  ui.ask('Frame', '', (title) => session.tryEdit('add a frame', {op: 'frame', set: {title, x, y, width, height}}), 'Its title.');
 }
 
 export function openPalette(screen?: Point, wire?: {node: string; port: Port; side: 'source' | 'target'}) {

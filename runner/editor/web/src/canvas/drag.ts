@@ -102,7 +102,17 @@ function makeRoom(dropped: CanvasNode, wire: string, positions: Record<string, [
   return edits;
 }
 
+/// Everything goes back to where the document has it.
+function abandon() {
+  canvas.isAbandoned = false;
+  canvas.dropWire = null;
+  carried = [];
+  following = [];
+  canvas.take(session.levelName, true);
+}
+
 export function drop(nodes: CanvasNode[]) {
+  if (canvas.isAbandoned) return abandon();
   const edits: Edit[] = [], positions: Record<string, [number, number]> = {};
   const moved = new Set([...nodes.map((n) => n.id), ...carried.flatMap((c) => c.nodes.map((n) => n.id))]);
   for (const node of canvas.nodes)

@@ -110,7 +110,10 @@ const regions = ['#canvas', '#panel', '#view', '#bar'];
 
 export function onkeydown(event: KeyboardEvent) {
   if (event.defaultPrevented || ui.anyOpen()) return;
-  const target = event.target as HTMLElement, isWriting = target.matches?.(writes);
+  const target = event.target as HTMLElement;
+  // A number that is not being typed, a slider or a choice has nothing of its own to undo.
+  const undoes = (event.ctrlKey || event.metaKey) && ['z', 'y'].includes(event.key.toLowerCase());
+  const isWriting = target.matches?.(writes) && !(undoes && target.matches('.number:not([data-typed]), [type=range], [type=checkbox], select'));
   const onCanvas = target === document.body || !!target.closest?.('#canvas');
   const take = () => event.preventDefault();
   if (event.key === 'F6') {

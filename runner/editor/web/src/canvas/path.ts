@@ -1,6 +1,5 @@
 // The course of a wire: from source to target, past the points where somebody has bent it.
 import type { Point } from '../state/ui.svelte.ts';
-import type { Box } from './model.ts';
 
 interface Piece {from: Point; first: Point; second: Point; to: Point}
 
@@ -49,27 +48,6 @@ export function middleOfWire(source: Point, target: Point, bends: Point[]): {ind
   const all = pieces(source, target, bends), length = ({from, to}: Piece) => Math.hypot(to.x - from.x, to.y - from.y);
   const index = all.reduce((best, piece, at) => length(piece) > length(all[best]!) ? at : best, 0);
   return {index, point: pointOf(all[index]!, 0.5)};
-}
-
-/// A wire to a target that lies to the left: down or up beside the source, back between cards, and to the target. `lane`
-/// keeps wires of several outputs apart.
-export function wayBack(source: Point, target: Point, boxes: Box[], lane: number): Point[] {
-  const beside = 16 + 3 * lane, clear = 12, right = source.x + beside, left = target.x - beside;
-  const covered = boxes.filter((b) => b.x < right && b.x + b.width > left).map((b) => [b.y - clear, b.y + b.height + clear] as const).sort((a, b) => a[0] - b[0]);
-  let low = -Infinity, best = (source.y + target.y) / 2, least = Infinity;
-  const consider = (from: number, to: number) => {
-    if (to <= from) return;
-    const middle = (source.y + target.y) / 2, y = to - from < 120 ? (from + to) / 2 : Math.min(to - 8, Math.max(from + 8, middle));
-    const cost = Math.abs(y - source.y) + Math.abs(y - target.y);
-    if (cost < least) { least = cost; best = y; }
-  };
-  for (const [from, to] of covered) {
-    consider(low, from);
-    low = Math.max(low, to);
-  }
-  consider(low, Infinity);
-  const y = best + 5 * (lane - 2);
-  return [source, {x: right, y: source.y}, {x: right, y}, {x: left, y}, {x: left, y: target.y}, target];
 }
 
 /// Straight lines with rounded corners.

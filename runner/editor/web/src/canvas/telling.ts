@@ -1,5 +1,6 @@
 // What a node says of itself in one short line.
 import type { GraphNode, Param } from '../state/protocol.ts';
+import { session } from '../state/session.svelte.ts';
 
 // The parameters that tell most about a node, if none was changed or several were.
 const telling = ['path', 'kind', 'preset', 'map', 'size', 'mode', 'basis', 'value', 'radius', 'scale', 'quality', 'margin', 'to', 'shape', 'k'];
@@ -12,10 +13,20 @@ export function spelled(value: unknown): string {
   return typeof value === 'number' ? String(Math.round(value * 1e6) / 1e6) : String(value ?? '');
 }
 
+/// A path as the document has it, from the graph's folder on; what is too long loses its beginning.
+export function shortPath(path: string, most = Infinity): string {
+  const home = (session.document?.file.folder ?? '') + '/';
+  const own = path + '/' === home ? '.' : home.length > 1 && path.startsWith(home) ? path.slice(home.length) : path;
+  if (own.length <= most) return own;
+  const cut = own.indexOf('/', own.length - most + 1);
+  return cut < 0 ? own : '…' + own.slice(cut);
+}
+
 export const isExpression = (value: unknown): value is string =>
   typeof value === 'string' && (value.startsWith('=') || /\$[A-Za-z_]/.test(value));
 
-export function tellingLine(node: GraphNode): {name: string; text: string} | null {
+/// `whole`: what a shortened text says in full.
+export function tellingLine(node: GraphNode): {name: string; text: string; whole: string} | null {
   const given = node.params.filter((p) => p.name in node.values);
   const rank = (p: Param) => { const at = telling.indexOf(p.name); return at < 0 ? telling.length : at; };
   const best = given.sort((a, b) => rank(a) - rank(b))[0] ??
@@ -24,7 +35,8 @@ export function tellingLine(node: GraphNode): {name: string; text: string} | nul
   if (!best) return null;
   const value = node.values[best.name] ?? best.default;
   const shown = node.shown[best.name];
-  return {name: best.name, text: shown !== undefined && shown !== '' ? shown : spelled(value)};
+  const whole = shown !== undefined && shown !== '' ? shown : spelled(value);
+  return {name: best.name, text: best.type === 'path' ? shortPath(whole, 22) : whole, whole};
 }
 
 export const seconds = (value: number) =>

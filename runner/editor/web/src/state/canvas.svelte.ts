@@ -1,4 +1,5 @@
 // The canvas as other parts of the page see it: what is selected, and where to look.
+import { lanes } from '../canvas/route.ts';
 import { edgesOf, nodesOf, rectangle, wireOf, type CanvasNode, type WireEdge } from '../canvas/model.ts';
 import type { Point } from './ui.svelte.ts';
 import { session } from './session.svelte.ts';
@@ -19,10 +20,18 @@ class Canvas {
   pointer: Point | null = null;  // over the canvas, on the screen
   dropWire = $state<string | null>(null);  // the wire that a dragged node would be put into
 
+  pulledWire = $state<string | null>(null);  // the wire that is being pulled off its input
+  isAbandoned = false;  // what is dragged is given up
+  valueOver = $state<string | null>(null);  // the node that a dragged value would go to
+
   pickedBend = $state.raw<{wire: string; index: number} | null>(null);
 
-  /// What wires that go back lead around.
+  /// What wires lead around.
   boxes = $derived(this.nodes.filter((n) => n.type !== 'frame').map(rectangle));
+
+  /// By output, so that wires that go the same way lie beside each other.
+  lanes = $derived(new Map([...new Set(this.edges.map((e) => `${e.source}.${e.sourceHandle}`))].map((output, index) => [output, index % lanes])));
+  moves = $derived(this.nodes.some((n) => n.dragging));
 
   selected = $derived(this.nodes.filter((n) => n.selected && n.type === 'card').map((n) => n.id));
   selectedFrames = $derived(this.nodes.filter((n) => n.selected && n.type === 'frame').map((n) => n.id.slice(6)));

@@ -25,7 +25,7 @@ class Histograms {
     const source = sourceOf(node);
     if (!source) return;
     const pictures = runs.picturesOf(source.level, source.node).filter((p) => p.output === source.output && !p.map);
-    const picture = pictures.find((p) => p.of === 'full' && !p.stale) ?? pictures.find((p) => p.of === 'preview') ?? pictures[0];
+    const picture = pictures[0];
     if (!picture || this.known?.digest === picture.digest) return;
     const {digest} = picture, key = source.level + '/' + source.node + '.' + source.output;
     try {

@@ -33,6 +33,9 @@ class Look {
   /// The picture that is compared with, and where the border between the two stands.
   frozen = $state.raw<Picture | null>(null);
   wipe = $state(0.5);
+  /// What was done last when it was taken, and what was since.
+  frozenAs = $state('');
+  now = $derived(session.document?.undo ?? 'as it was opened');
   /// Shared by all pictures of the view: pixels of the screen for one of the picture, and the picture's middle on the screen.
   zoom = $state(0);
   pan = $state.raw({x: 0.5, y: 0.5});
@@ -63,8 +66,11 @@ class Look {
 
   /// The view shows what is selected, unless it is locked.
   follow() {
-    if (this.locked || !canvas.current) return;
-    const looked = {level: session.levelName, node: canvas.current};
+    // What is painted belongs to what it is painted on.
+    if (this.locked || this.painting || !canvas.current) return;
+    // What only writes has no picture of its own: what it writes is shown.
+    const node = session.node(canvas.current), source = node && !node.outputs.length ? node.wires[0]?.node : undefined;
+    const looked = {level: session.levelName, node: source && session.node(source) ? source : canvas.current};
     if (runs.looked?.node !== looked.node || runs.looked.level !== looked.level) runs.looked = looked;
   }
 }
@@ -74,7 +80,7 @@ export const named = (picture: Picture) => picture.map ?? picture.output;
 function best(pictures: Picture[], map: string | undefined): Picture | undefined {
   const candidates = pictures.filter((p) => named(p) === map);
   const among = candidates.length ? candidates : pictures.filter((p) => named(p) === named(pictures.find((q) => q.map === 'base_color') ?? pictures[0]!));
-  return among.find((p) => p.of === 'full' && !p.stale) ?? among.find((p) => p.of === 'preview') ?? among[0];
+  return among[0];
 }
 
 export const look = new Look();

@@ -51,7 +51,7 @@ export interface NodeType {
 
 export interface Picture {
   level: string; node: string; output: string; map?: string; digest: string; url: string; small: string; width: number;
-  height: number; of: 'preview' | 'full'; coarse: boolean; semantic: string; stale: boolean;
+  height: number; of: 'preview' | 'full'; coarse: boolean; semantic: string;
   exemplar?: {width: number; height: number};  // of a uv map: the one that its values are places in
 }
 

@@ -28,6 +28,7 @@ class Session {
 
   #typesByName = $derived(new Map(this.types.map((type) => [type.name, type])));
   #lastToast = 0;
+  #sent: Promise<unknown> = Promise.resolve();
   #waiting: {revision: number; done: () => void}[] = [];
 
   typeNamed(name: string): NodeType | undefined { return this.#typesByName.get(name); }
@@ -95,11 +96,13 @@ class Session {
   async tryEdit(step: StepOfUndo, ...edits: Edit[]): Promise<string[]> {
     if (this.readOnly) throw new Refused('This graph is shown read-only.', 403);
     const level = this.levelName, {label, gesture} = typeof step === 'string' ? {label: step, gesture: ''} : step;
-    const answer = await ask<{revision: number; names?: string[]; taken?: string[]}>('edit', {
+    const sent = ask<{revision: number; names?: string[]; taken?: string[]}>('edit', {
       base: this.document?.revision ?? 0, label, tab, ...(gesture ? {gesture} : {}), edits: edits.map((edit) => ({level, ...edit})),
     });
+    this.#sent = sent.catch(() => undefined);
+    const answer = await sent;
     // What else went away with what was removed.
-    if (answer.taken?.length) this.say(answer.taken.join('\n'));
+    if (answer.taken?.length) this.say(answer.taken.length === 1 && answer.taken[0]!.includes(' no longer ') ? answer.taken[0]! : `Also gone: ${answer.taken.join('; ')}`);
     await this.#shown(answer.revision);
     return answer.names ?? [];
   }
@@ -118,8 +121,9 @@ class Session {
     else this.say(error instanceof Error ? error.message : String(error), 'error');
   }
 
-  async undo() { if (this.document?.undo !== undefined) await this.call('undo'); }
-  async redo() { if (this.document?.redo !== undefined) await this.call('redo'); }
+  // Of what was edited just now the page may not have heard yet: the program knows.
+  async undo() { await this.#sent; await this.call('undo'); }
+  async redo() { await this.#sent; await this.call('redo'); }
 
   enter(name: string) {
     const node = this.node(name);

@@ -10,6 +10,9 @@ export interface PaletteRequest {
   behind?: string;                                                   // the node to add behind
 }
 
+/// Asks for a line of text. What the answer throws is shown, and can be mended.
+export interface Asked {title: string; value: string; hint?: string; refusal?: string; answer: (text: string) => unknown}
+
 export interface MenuItem {label: string; keys?: string; act?: () => void; disabled?: string | boolean; more?: MenuItem[]}
 
 const stored = <T>(key: string, fallback: T): T => {
@@ -28,8 +31,11 @@ class Ui {
   palette = $state.raw<PaletteRequest | null>(null);
   menu = $state.raw<{at: Point; items: MenuItem[]; label: string} | null>(null);
   /// From an output of the node; or, with a port, from wherever to that input.
-  connecting = $state.raw<{node: string; port?: string} | null>(null);
-  asking = $state.raw<{title: string; value: string; hint?: string; answer: (text: string) => void} | null>(null);
+  connecting = $state.raw<{node: string; port?: string; at?: Point} | null>(null);
+  /// A value: into the parameter of a node, or from a parameter of the graph, into one of that node or of any.
+  wiringFrom = $state.raw<{node: string; param: string; at?: Point} | null>(null);
+  wiringTo = $state.raw<{name: string; node?: string; at?: Point} | null>(null);
+  asking = $state.raw<Asked | null>(null);
   choosingFile = $state.raw<{value: string; choose: (path: string) => void} | null>(null);
   finding = $state(false);
   help = $state(false);
@@ -40,6 +46,8 @@ class Ui {
   viewDock = $state<Dock>(stored<Dock>('viewDock', 'right'));
   viewOpen = $state(stored('viewOpen', true));
   minimap = $state(stored('minimap', true));
+  /// Dragging on the empty canvas selects; it moves the canvas with the middle button only.
+  marquee = $state(stored('marquee', false));
   /// Typed into the text of the document and not applied; null: the text is the document's.
   draft = $state<string | null>(null);
   /// The document's text when that was begun.
@@ -55,16 +63,16 @@ class Ui {
   }
 
   keep() {
-    const {theme, panel, viewShare, viewDock, viewOpen, minimap} = this;
-    for (const [key, value] of Object.entries({theme, panel, viewShare, viewDock, viewOpen, minimap}))
+    const {theme, panel, viewShare, viewDock, viewOpen, minimap, marquee} = this;
+    for (const [key, value] of Object.entries({theme, panel, viewShare, viewDock, viewOpen, minimap, marquee}))
       localStorage.setItem('terrazzo.' + key, JSON.stringify(value));
   }
 
-  ask(title: string, value: string, answer: (text: string) => void, hint?: string) {
+  ask(title: string, value: string, answer: Asked['answer'], hint?: string) {
     this.asking = {title, value, answer, hint};
   }
   anyOpen() {
-    return !!(this.palette || this.menu || this.connecting || this.asking || this.choosingFile || this.finding || this.help);
+    return !!(this.palette || this.menu || this.connecting || this.wiringFrom || this.wiringTo || this.asking || this.choosingFile || this.finding || this.help);
   }
 }
 

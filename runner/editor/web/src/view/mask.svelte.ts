@@ -25,6 +25,14 @@ class Mask {
 
   #contextOf(canvas: HTMLCanvasElement) { return canvas.getContext('2d', {willReadFrequently: true})!; }
 
+  #of = '';
+
+  /// It is of that node now; strokes on another one go.
+  use(node: string) {
+    if (node !== this.#of) this.clear();
+    this.#of = node;
+  }
+
   /// A stroke begins on a picture of that size.
   begin(width: number, height: number) {
     if (!this.#values || this.#values.width !== width || this.#values.height !== height) {
