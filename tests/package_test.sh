@@ -7,12 +7,8 @@
 set -euo pipefail
 source=$(realpath "${1:?usage: package_test.sh SOURCE_FOLDER BUILD_FOLDER}")
 build=$(realpath "${2:?usage: package_test.sh SOURCE_FOLDER BUILD_FOLDER}")
-skip() {
-  echo "$1: the packages are not tested" >&2
-  exit 77
-}
-[ "$(id -u)" -eq 0 ] || skip "not root"
-command -v debootstrap >/dev/null || [ -n "${TERRAZZO_BARE_DEBIAN:-}" ] || skip "no debootstrap"
+. "$source/tests/bare_debian.sh"
+need_debian "${TERRAZZO_BARE_DEBIAN:-}"
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-packages.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -24,8 +20,8 @@ complain() {
 }
 
 bare=${TERRAZZO_BARE_DEBIAN:-$scratch/bare}
-[ -d "$bare" ] || debootstrap --variant=minbase bookworm "$bare" >said 2>&1 || skip "debootstrap failed: $(tail -1 said)"
-unshare --mount --pid --fork --mount-proc="$(realpath "$bare/proc")" chroot "$bare" true || skip "no chroot"
+[ -d "$bare" ] || make_debian bookworm "$bare"
+inside "$bare" true || skip "no chroot"
 
 # The commands of the guide, in a tree where they find what they name.
 mkdir guide && cp -r "$source/examples" "$source/graphs" guide && ln -s "$build" guide/build
@@ -53,7 +49,7 @@ makes=(
   'TERRAZZO synth PHOTO -o OUT/exr --format exr --size 96x96 --quality draft'
   'TERRAZZO run stock:texture --set image=PHOTO --set out=OUT/stock --set size=96x96 --set quality=draft --set format=tif')
 
-# runs_in ROOT PROGRAM: all commands within ROOT, without a trace of this machine's environment.
+# runs_in ROOT PROGRAM: all commands within ROOT.
 runs_in() {
   local root=$1 program=$2 command
   cp photo.jpg "$root"
@@ -61,10 +57,7 @@ runs_in() {
     command=${command//TERRAZZO/$program}
     command=${command//PHOTO//photo.jpg}
     command=${command//OUT//made}
-    # Programs find what lies beside them through /proc.
-    timeout 120 env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin unshare --mount --pid --fork \
-      --mount-proc="$(realpath "$root/proc")" chroot "$root" $command --progress none >said 2>&1 ||
-      complain "$root: $command: $(tail -3 said)"
+    inside "$root" timeout 120 $command --progress none >said 2>&1 || complain "$root: $command: $(tail -3 said)"
   done
 }
 for command in "${makes[@]}"; do
@@ -90,14 +83,13 @@ test -s with_tarball/made/exr/base_color.exr || complain "the tarball's program 
 
 cp -a "$bare" with_package
 cp packages/*.deb with_package/terrazzo.deb
-cp /etc/resolv.conf with_package/etc/ 2>/dev/null || true
-[ ! -d /etc/apt/apt.conf.d ] || grep -l 'Acquire::' /etc/apt/apt.conf.d/* 2>/dev/null | xargs -r cp -t with_package/etc/apt/apt.conf.d
-if chroot with_package apt-get update >said 2>&1; then
-  DEBIAN_FRONTEND=noninteractive chroot with_package apt-get install -y --no-install-recommends /terrazzo.deb >said 2>&1 ||
+use_servers with_package
+if inside with_package apt-get update >said 2>&1; then
+  inside with_package apt-get install -y --no-install-recommends /terrazzo.deb >said 2>&1 ||
     complain "the package does not install: $(tail -5 said)"
   runs_in with_package terrazzo
   pictures with_package/made | diff expected - || complain "the package's program made other files"
-  DEBIAN_FRONTEND=noninteractive chroot with_package apt-get remove -y terrazzo >said 2>&1 || complain "the package cannot be removed: $(tail -3 said)"
+  inside with_package apt-get remove -y terrazzo >said 2>&1 || complain "the package cannot be removed: $(tail -3 said)"
   [ -z "$(find with_package/usr -path '*terrazzo*' -not -name terrazzo.deb)" ] || complain "files stay after removal"
 else
   [ $failed = 0 ] || exit 1

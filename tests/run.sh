@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and runs every test: one run of the test program for each room. Arguments go to
-# ctest: tests/run.sh -R runner/cache. With -C long it also runs what needs Blender or Godot, 64 variations through Slurm,
-# and the packages in a bare Debian (as root, with debootstrap). A single test is quicker without it, and -d tells how long each takes:
+# ctest: tests/run.sh -R runner/cache. With -C long it also runs what needs Blender or Godot, 64 variations through Slurm, and
+# packages and Blender 4 in bare Debians (as root, with debootstrap). A single test is quicker without it, and -d tells how
+# long each takes:
 #   build/tests/terrazzo_tests -d -tc="*cache*"
 # Under the sanitizers: tests/sanitize.sh.
 set -euo pipefail

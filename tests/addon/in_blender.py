@@ -12,15 +12,11 @@ import bpy
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from workbench import (base_colors, give, install, make, node, old_material, picture_of, plane, refusal,  # noqa: E402
-                       run_all, start, wait)
+from workbench import (addon, base_colors, give, install, make, node, old_material, picture_of, plane,  # noqa: E402
+                       preferences, refusal, run_all, start, wait)
 
 ARCHIVE, PROGRAM, MAPS, SCRATCH = sys.argv[sys.argv.index("--") + 1:]
 install(ARCHIVE, PROGRAM, SCRATCH)
-
-
-def preferences():
-    return bpy.context.preferences.addons["terrazzo_blender"].preferences
 
 
 def wall(**more):
@@ -105,8 +101,7 @@ def packed_and_deep_images_reach_the_program_as_they_are():
 def exr_images_stay_linear():
     folder = os.path.join(SCRATCH, "float")
     subprocess.run([PROGRAM, "run", os.path.join(SCRATCH, "float.json"), "--progress", "none"], check=True)
-    from terrazzo_blender.build_material import build_material
-    from terrazzo_blender.compat import linear_space
+    build_material, linear_space = addon("build_material").build_material, addon("compat").linear_space
     target = plane(3, 3)
     give(target, build_material("Float", folder, {"base_color": {"file": "base_color.exr", "color_space": linear_space()}}))
     make(factor=1, quality="draft")
@@ -211,8 +206,7 @@ def one_of_eight_is_chosen():
     start("best_of_eight", factor=1.5, seed=10)
     job = wait()
     assert not job.has_failed, job.summary
-    from terrazzo_blender import making
-    assert making.choices["seeds"] == list(range(10, 18))
+    assert addon("making").choices["seeds"] == list(range(10, 18))
     pictures = {hashlib.sha256(open(os.path.join(job.request["out"], str(s), "lit.png"), "rb").read()).digest()
                 for s in range(10, 18)}
     assert len(pictures) == 8
@@ -231,7 +225,7 @@ def the_uv_map_shows_the_resolved_maps():
     job = make(factor=2, as_uv=True, seed=4, quality="draft")
     through_uv = target.active_material
     assert sorted(tuple(n.image.size) for n in through_uv.node_tree.nodes if n.type == "TEX_IMAGE") == [(300, 64)] * 4
-    graph = os.path.join(os.path.dirname(sys.modules["terrazzo_blender"].__file__), "material.json")
+    graph = os.path.join(os.path.dirname(addon("command").__file__), "material.json")
     resolved = os.path.join(SCRATCH, "resolved")
     values = {"material": os.path.join(job.request["out"], "exemplar"), "out": resolved, "seed": 4, "scale": 2, "join": 0,
               "tones": 0, "quality": "draft", "tileable": "xy"}

@@ -1,4 +1,5 @@
 # What tests of the add-on in Blender share: installing it, waiting for runs, objects, and pictures by Cycles.
+import importlib
 import os
 import sys
 import time
@@ -9,17 +10,34 @@ import numpy
 MAPS = ("base_color", "normal", "height", "roughness", "ambient_occlusion")
 
 
+IS_EXTENSION = bpy.app.version >= (4, 2)
+MODULE = "bl_ext.user_default.terrazzo_blender" if IS_EXTENSION else "terrazzo_blender"
+
+
 def install(archive, program, scratch):
-    bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
-    bpy.ops.preferences.addon_enable(module="terrazzo_blender")
-    own = bpy.context.preferences.addons["terrazzo_blender"].preferences
+    """As the button in Blender's preferences does it."""
+    if IS_EXTENSION:
+        bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
+    else:
+        bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
+        bpy.ops.preferences.addon_enable(module=MODULE)
+    own = preferences()
     own.program, own.cache, own.results = program, os.path.join(scratch, "cache"), os.path.join(scratch, "results")
     return own
 
 
+def preferences():
+    return bpy.context.preferences.addons[MODULE].preferences
+
+
+def addon(name):
+    """A module of the add-on."""
+    return importlib.import_module(f"{MODULE}.{name}")
+
+
 def wait(until=None, seconds=120):
     """Does what Blender's timer does, until all runs have ended; the last of them."""
-    from terrazzo_blender import jobs
+    jobs = addon("jobs")
     end = time.monotonic() + seconds
     while jobs.jobs and not (until and until(jobs.jobs[-1])):
         jobs.look()
@@ -66,9 +84,8 @@ def plane(width, height, uvs=(1, 1)):
 
 
 def old_material(folder, maps=MAPS, repeats=(2, 2), relief=0.02, name="Bricks"):
-    from terrazzo_blender.build_material import build_material
     files = {m: {"file": m + ".png", "color_space": "sRGB" if m == "base_color" else "Non-Color"} for m in maps}
-    return build_material(name, folder, files, repeats=repeats, relief=relief)
+    return addon("build_material").build_material(name, folder, files, repeats=repeats, relief=relief)
 
 
 def give(target, material):
@@ -114,8 +131,7 @@ def base_colors(target, pixels, scratch):
     scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
     scene.render.filepath = os.path.join(scratch, "shot.exr")
     bpy.ops.render.render(write_still=True)
-    from terrazzo_blender.compat import linear_space
-    return picture_of(scene.render.filepath, linear_space())[:, :, :3]
+    return picture_of(scene.render.filepath, addon("compat").linear_space())[:, :, :3]
 
 
 def run_all(tests):

@@ -108,7 +108,7 @@ bpy.ops.render.render(write_still=True)
 
 def pixels_of(file):
     image = bpy.data.images.load(os.path.abspath(file))
-    image.colorspace_settings.name = "Linear" if file.endswith(".exr") else "Non-Color"
+    image.colorspace_settings.name = "Non-Color"  # the numbers in the file
     return numpy.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)[:, :, :3]
 
 
