@@ -88,6 +88,10 @@ if inside with_package apt-get update >said 2>&1; then
   inside with_package apt-get install -y --no-install-recommends /terrazzo.deb >said 2>&1 ||
     complain "the package does not install: $(tail -5 said)"
   runs_in with_package terrazzo
+  if grep -q '^TERRAZZO_PYTHON:BOOL=ON' "$build/CMakeCache.txt"; then
+    inside with_package python3 -B -c 'import terrazzo; terrazzo.Graph.stock("texture")' >said 2>&1 ||
+      complain "in Python: $(tail -3 said)"
+  fi
   pictures with_package/made | diff expected - || complain "the package's program made other files"
   inside with_package apt-get remove -y terrazzo >said 2>&1 || complain "the package cannot be removed: $(tail -3 said)"
   [ -z "$(find with_package/usr -path '*terrazzo*' -not -name terrazzo.deb)" ] || complain "files stay after removal"
