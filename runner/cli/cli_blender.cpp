@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@
 namespace terrazzo {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The folder in the archive, which is the name of the add-on's Python module.
 constexpr std::string_view addon_module = "terrazzo_blender";
@@ -27,6 +30,9 @@ int write_addon(const AddonFlags& flags) {
   check_replaced({{"-o", flags.out, WrittenKind::zip}}, flags.force);
   const std::unique_ptr<ArchiveWriter> archive = write_archive(flags.out, ArchiveFormat::zip);
   for (const AddonFile& file : addon_files()) archive->add(fmt::format("{}/{}", addon_module, file.name), file.text);
+  // So that the add-on finds the program without being told.
+  std::error_code unknown;
+  archive->add(fmt::format("{}/written_by.txt", addon_module), fs::read_symlink("/proc/self/exe", unknown).string() + "\n");
   archive->finish();
   print_message("wrote {}; in Blender: Edit > Preferences > Add-ons > Install\n", flags.out);
   return exit_done;

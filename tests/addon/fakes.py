@@ -51,8 +51,13 @@ class Tree:
         return node, output
 
 
-def image(name, space="Non-Color", source="FILE", dirty=False, packed=None, tiles=()):
-    return types.SimpleNamespace(
-        name=name, source=source, is_dirty=dirty, tiles=tiles, size=(64, 64),
+class Image(types.SimpleNamespace):
+    __hash__ = object.__hash__
+
+
+def image(name, space="Non-Color", source="FILE", dirty=False, packed=None, tile=1001, packed_files=()):
+    return Image(
+        name=name, source=source, is_dirty=dirty, size=(64, 64), packed_files=packed_files,
+        tiles=types.SimpleNamespace(active=types.SimpleNamespace(number=tile)),
         packed_file=types.SimpleNamespace(data=packed) if packed is not None else None,
         colorspace_settings=types.SimpleNamespace(name=space))

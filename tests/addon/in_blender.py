@@ -3,10 +3,12 @@
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 import time
+import urllib.request
 
 import bpy
 import numpy
@@ -65,11 +67,13 @@ def an_object_is_fitted():
     bpy.context.view_layer.update()
     bpy.ops.terrazzo.measure()
     assert abs(bpy.context.scene.terrazzo.density - (64 / 4 + 64 / 1) / 2) < 1e-3, bpy.context.scene.terrazzo.density
-    make(size_by="OBJECT", density=20, quality="draft", tileable="none")
+    make(size_by="DENSITY", density=20, quality="draft", tileable="none")
     new = target.active_material
     assert tuple(node(new, "TEX_IMAGE").image.size) == (120, 40)
     assert numpy.allclose(tuple(node(new, "MAPPING").inputs["Scale"].default_value)[:2], (1 / 1.5, 1 / 2))
-    job = make(density=20, most=64)
+    make(size_by="OBJECT", seed=2)
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (240, 80)
+    job = make(size_by="DENSITY", density=20, most=64)
     assert "repeats" in job.messages[0] and tuple(node(target.active_material, "TEX_IMAGE").image.size) == (64, 40)
 
 
@@ -128,20 +132,32 @@ def images_without_a_file_are_named():
     missing = bpy.data.images.load(os.path.join(MAPS, "base_color.png"))
     missing.filepath = "/nowhere/stone.png"
     assert "is missing: there is no file /nowhere/stone.png" in with_image(missing)
-    tiles = os.path.join(SCRATCH, "tiles")
-    os.makedirs(tiles, exist_ok=True)
-    for tile in (1001, 1002):
-        shutil.copy(os.path.join(MAPS, "base_color.png"), os.path.join(tiles, f"wall.{tile}.png"))
-    udim = bpy.data.images.load(os.path.join(tiles, "wall.1001.png"))
-    udim.source = "TILED"
-    udim.filepath = os.path.join(tiles, "wall.<UDIM>.png")
-    assert "UDIM" in with_image(udim)
     target = wall()
     target.active_material.node_tree.nodes.remove(node(target.active_material, "BSDF_PRINCIPLED"))
     assert "no Principled BSDF" in refusal()
     give(target, bpy.data.materials.new("Plain"))
     assert "does not use nodes" in refusal()
     assert "There is no folder /nowhere" in refusal(source="FOLDER", folder="/nowhere")
+
+
+def a_tile_of_a_udim_set_is_the_exemplar():
+    tiles = os.path.join(SCRATCH, "tiles")
+    os.makedirs(tiles)
+    for tile, file in ((1001, "normal.png"), (1002, "base_color.png")):
+        shutil.copy(os.path.join(MAPS, file), os.path.join(tiles, f"wall.{tile}.png"))
+    udim = bpy.data.images.load(os.path.join(tiles, "wall.1001.png"))
+    udim.source = "TILED"
+    udim.filepath = os.path.join(tiles, "wall.<UDIM>.png")
+    udim.tiles.active_index = 1
+    for pack in (lambda: None, udim.pack):
+        pack()
+        target = wall()
+        node(target.active_material, "TEX_IMAGE").image = udim
+        job = make(factor=1)
+        assert "Tile 1002" in job.messages[0], job.messages
+        exemplar = os.path.join(job.request["out"], "exemplar")
+        assert digests(exemplar)["base_color.png"] == digests(MAPS)["base_color.png"]
+        assert node(target.active_material, "TEX_IMAGE").image.source == "FILE"
 
 
 def a_program_that_is_missing_or_too_old_is_told():
@@ -154,10 +170,11 @@ def a_program_that_is_missing_or_too_old_is_told():
         for path, says in (("/nowhere/terrazzo", "no program /nowhere/terrazzo"), (old, "is too old: it is version 0.0.1")):
             preferences().program = path
             said = refusal()
-            assert says in said and ("Build it" in said or "newer program" in said), said
+            assert says in said and ("build it" in said or "newer program" in said), said
     finally:
-        preferences().program = PROGRAM
+        preferences().program = ""  # the one that wrote the add-on
     make(factor=1)
+    preferences().program = PROGRAM
 
 
 def a_run_can_be_cancelled():
@@ -206,7 +223,7 @@ def one_of_eight_is_chosen():
     start("best_of_eight", factor=1.5, seed=10)
     job = wait()
     assert not job.has_failed, job.summary
-    assert addon("making").choices["seeds"] == list(range(10, 18))
+    assert list(addon("making").choices["pictures"]) == list(range(10, 18))
     pictures = {hashlib.sha256(open(os.path.join(job.request["out"], str(s), "lit.png"), "rb").read()).digest()
                 for s in range(10, 18)}
     assert len(pictures) == 8
@@ -263,13 +280,22 @@ def a_graph_of_ones_own_has_fields_and_is_watched():
     write(1)
     settings = bpy.context.scene.terrazzo
     settings.use_graph, settings.graph = True, graph
-    bpy.ops.terrazzo.read_graph()
     assert {p.name: p.field() for p in settings.parameters} == {
         "material": "path", "out": "path", "seed": "whole", "kind": "choice", "size": "text"}
     settings.preset = "small"
     make()
     assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (32, 32)
-    settings.preset, settings.parameters["size"].text = "", "96x64"
+    start("best_of_eight")
+    wait()
+    pictures = addon("making").choices["pictures"]
+    assert list(pictures) == list(range(1, 9)) and len(digests(os.path.dirname(pictures[3]))) == 5, pictures
+    bpy.ops.terrazzo.choose(seed=5)
+    wait()
+    assert settings.parameters["seed"].value() == "5" and target.active_material.name == "Bricks seed 5"
+    start("another_seed")
+    wait()
+    assert target.active_material.name == "Bricks seed 6"
+    settings.preset, settings.parameters["size"].text, settings.parameters["seed"].whole = "", "96x64", 1
     start("watch")
     job = wait(lambda j: j.progress.is_watching)
     material = target.active_material
@@ -300,6 +326,49 @@ def maps_that_are_edited_elsewhere_are_watched():
     assert numpy.array(image.pixels).mean() < first.mean() - 0.05, "the image has not been loaded again"
     bpy.ops.terrazzo.cancel(index=0)
     wait()
+
+
+def the_editor_opens_and_the_material_follows():
+    target = wall()
+    browser = os.path.join(SCRATCH, "browser")
+    with open(browser, "w") as file:
+        file.write(f'#!/bin/sh\necho "$1" >>"{browser}.log"\n')
+    os.chmod(browser, 0o755)
+    os.environ["BROWSER"] = browser
+    settings = bpy.context.scene.terrazzo
+    start("edit", factor=1.5, seed=3)
+    watched = addon("jobs").jobs[1]
+    editor = wait(lambda j: addon("jobs").jobs[0].address and watched.progress.is_watching and os.path.exists(browser + ".log"))
+    editor = addon("jobs").jobs[0]
+    with open(browser + ".log") as file:
+        address = file.read().strip()
+    assert address == editor.address
+    with urllib.request.build_opener(urllib.request.HTTPCookieProcessor()).open(address) as page:
+        assert page.status == 200
+    material = target.active_material
+    assert material.name == "Bricks seed 3" or watched.made == material.name, (material.name, watched.made)
+    image = node(material, "TEX_IMAGE").image
+    assert tuple(image.size) == (96, 96)
+    first = list(image.pixels)
+    path = bpy.path.abspath(settings.graph)
+    assert settings.use_graph and os.path.dirname(path) in editor.request["graph"]
+    with open(path) as file:
+        text = file.read()
+    changed = re.sub(r'("seed": *{"type": "int", *"default": )3', r"\g<1>4", text)
+    assert changed != text, text
+    with open(path + ".new", "w") as file:
+        file.write(changed)
+    os.replace(path + ".new", path)
+    wait(lambda j: watched.progress.runs == 2 and watched.progress.is_watching)
+    assert target.active_material == material and list(image.pixels) != first
+    # Once more: the same editor, the same watch.
+    start("edit")
+    assert len(addon("jobs").jobs) == 2
+    for _ in range(2):
+        bpy.ops.terrazzo.cancel(index=0)
+        count = len(addon("jobs").jobs)
+        wait(lambda j: len(addon("jobs").jobs) < count)
+    assert editor.summary == "closed" and not editor.has_failed
 
 
 def faces_and_colors_become_masks():
@@ -337,7 +406,8 @@ def faces_and_colors_become_masks():
 
 
 run_all([more_stands_beside_the_old_material, an_object_is_fitted, packed_and_deep_images_reach_the_program_as_they_are,
-         exr_images_stay_linear, images_without_a_file_are_named, a_program_that_is_missing_or_too_old_is_told,
+         exr_images_stay_linear, images_without_a_file_are_named, a_tile_of_a_udim_set_is_the_exemplar, a_program_that_is_missing_or_too_old_is_told,
          a_run_can_be_cancelled, undo_and_saving_do_not_disturb_a_run, one_of_eight_is_chosen,
-         the_uv_map_shows_the_resolved_maps, a_graph_of_ones_own_has_fields_and_is_watched, maps_that_are_edited_elsewhere_are_watched,
+         the_uv_map_shows_the_resolved_maps, a_graph_of_ones_own_has_fields_and_is_watched,
+         the_editor_opens_and_the_material_follows, maps_that_are_edited_elsewhere_are_watched,
          faces_and_colors_become_masks])

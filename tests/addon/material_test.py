@@ -210,21 +210,35 @@ class Sources(unittest.TestCase):
         self.assertTrue(os.path.isfile(self.grey))
 
     def test_images_without_a_usable_file(self):
-        for says, image in (("UDIM set of 2 tiles", fakes.image("x", source="TILED", tiles=(1, 2))),
+        for says, image in (("no file /missing.png", fakes.image("x", source="TILED", tile=1011)),
                             ("has changes that are not saved", fakes.image("x", dirty=True)),
                             ("is generated", fakes.image("x", source="GENERATED")),
                             ("only single images", fakes.image("x", source="SEQUENCE")),
                             ("no file /missing.png", fakes.image("x"))):
             with self.assertRaisesRegex(sources.SourceError, says):
                 self.gather({"base_color": use(image)}, "/missing.png")
-        self.assertEqual(sources.problem_of(fakes.image("x", source="GENERATED", packed=b"x"), ""), "")
+        self.assertEqual(sources.File(fakes.image("x", source="GENERATED", packed=b"x"), "", 0).problem(), "")
+
+    def test_a_tile_of_a_udim_set(self):
+        for tile, token, name in ((1012, "<UDIM>", "wall.1012.png"), (1012, "<UVTILE>", "wall.u2_v2.png")):
+            path = os.path.join(self.scratch.name, name)
+            masks.write_png(path, numpy.zeros((2, 2)))
+            color, rough = (use(fakes.image(n, source="TILED", tile=t)) for n, t in (("c", tile), ("r", 1001)))
+            _, notes, folder = self.gather({"base_color": color, "roughness": rough}, path.replace(name, f"wall.{token}.png"))
+            self.assertTrue(os.path.samefile(os.path.join(folder, "roughness.png"), path))
+            self.assertIn(f"Tile {tile} of the UDIM set is taken: the active one of 'c'", notes[0])
+        parts = [types.SimpleNamespace(tile_number=t, packed_file=types.SimpleNamespace(data=read(self.grey) + bytes([t - 1000])))
+                 for t in (1001, 1002)]
+        packed = fakes.image("p", source="TILED", tile=1002, packed=b"not this", packed_files=parts)
+        _, _, folder = self.gather({"height": use(packed)}, "wall.<UDIM>.tif")
+        self.assertEqual(read(os.path.join(folder, "height.png")), read(self.grey) + b"\2")
 
     def test_headers(self):
         self.assertEqual(sources.channels_of(b"\x89PNG" + bytes(21) + b"\x06"), 4)
         jpeg = b"\xff\xd8\xff\xe0\x00\x04ab\xff\xc0\x00\x0b\x08\x00\x02\x00\x02\x01" + bytes(20)
         self.assertEqual(sources.channels_of(jpeg), 1)
         self.assertEqual(sources.channels_of(b"\x76\x2f\x31\x01"), 0)
-        self.assertEqual(sources.ending_of(fakes.image("x", packed=b"\x76\x2f\x31\x01..."), "x.png"), ".exr")
+        self.assertEqual(sources.File(fakes.image("x", packed=b"\x76\x2f\x31\x01..."), "x.png", 0).ending(), ".exr")
 
 
 class Surfaces(unittest.TestCase):

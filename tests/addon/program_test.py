@@ -57,6 +57,13 @@ class Programs(Scratch):
         self.assertEqual(program.find("", {"TERRAZZO": own}), own)
         self.assertEqual(program.find("", {"PATH": "/nowhere:" + self.folder}), own)
         self.assertEqual(program.find("", {"PATH": "/nowhere"}, [own]), own)
+        other = self.script("other", "")
+        with open(self.path("written_by.txt"), "w") as file:
+            file.write(other + "\n")
+        path = {"PATH": self.folder}
+        self.assertEqual(program.find("", path, [], self.path("written_by.txt")), other)
+        os.remove(other)
+        self.assertEqual(program.find("", path, [], self.path("written_by.txt")), own)
 
     def test_not_found(self):
         plain = self.script("plain", "", 0o644)
@@ -64,7 +71,7 @@ class Programs(Scratch):
                 ("/nowhere/terrazzo", {}, "no program /nowhere/terrazzo, which is named in the preferences"),
                 ("", {"TERRAZZO": "/nowhere"}, r"no program /nowhere, which is named in \$TERRAZZO"),
                 (plain, {}, "not executable"), ("", {"PATH": ""}, "was not found")):
-            with self.assertRaisesRegex(program.ProgramError, says + ".*Build it"):
+            with self.assertRaisesRegex(program.ProgramError, says + ".*build it"):
                 program.find(preferred, environment, [])
 
     def test_versions(self):

@@ -55,6 +55,9 @@ def make(**settings):
 
 
 def start(operator="make", **settings):
+    """Presses a button, with settings of the panel: a factor asks for a size by it."""
+    if "factor" in settings:
+        settings.setdefault("size_by", "FACTOR")
     for name, value in settings.items():
         setattr(bpy.context.scene.terrazzo, name, value)
     getattr(bpy.ops.terrazzo, operator)()

@@ -27,10 +27,11 @@ def _end_with_parent():
 class Child:
     """A run of the program: events of `--progress json`, and at the end {"event": "exited", "code"}."""
 
-    def __init__(self, preferred, arguments, prepare=None):
+    def __init__(self, preferred, arguments, prepare=None, reads_output=False):
         """preferred: the path of the program, or nothing to look for it. arguments: of the program, as texts.
-        prepare(files): called in the thread, which may take its time, when a run is complete; it may raise ValueError."""
-        self._prepare = prepare
+        prepare(files): called in the thread, which may take its time, when a run is complete; it may raise ValueError.
+        reads_output: lines of the standard output are events, too."""
+        self._prepare, self._reads_output = prepare, reads_output
         self._events = queue.SimpleQueue()
         self._process = None
         self._cancelled = False
@@ -63,11 +64,12 @@ class Child:
             program.require(path)
             with self._lock:
                 if not self._cancelled:
-                    self._process = subprocess.Popen(
-                        [path, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                        stderr=subprocess.PIPE, start_new_session=True, preexec_fn=_end_with_parent)
+                    out, err = ((subprocess.PIPE, subprocess.STDOUT) if self._reads_output else
+                                (subprocess.DEVNULL, subprocess.PIPE))
+                    self._process = subprocess.Popen([path, *arguments], stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                                     start_new_session=True, preexec_fn=_end_with_parent)
             if self._process is not None:
-                with self._process.stderr as lines:
+                with self._process.stdout or self._process.stderr as lines:
                     for line in lines:
                         self._take(event_in(line.decode("utf-8", "replace")))
                 code = self._process.wait()

@@ -44,7 +44,13 @@ def make(values, watch=False, options=()):
 
 def choices(values, seeds, table, options=()):
     """A lit picture for each seed: `out`/SEED/lit.png. table: the file to write the variations to."""
-    rest = {n: v for n, v in values.items() if n not in ("seed", "out")}
+    return variations(GRAPH, {**values, "write": "picture"}, seeds, table, options=options)
+
+
+def variations(graph, values, seeds, table, out="out", preset="", options=()):
+    """Runs a graph that has a parameter `seed` for each seed. out: the name of the parameter for the folder of results,
+    of which each seed gets one of its own. table: the file to write the variations to."""
+    rest = {n: v for n, v in values.items() if n not in ("seed", out)}
     with open(table, "w", encoding="utf-8") as file:
-        json.dump([{"seed": s, "out": os.path.join(values["out"], str(s))} for s in seeds], file)
-    return run(GRAPH, {**rest, "write": "picture"}, options=["--table", table, *options])
+        json.dump([{"seed": s, out: os.path.join(values[out], str(s))} for s in seeds], file)
+    return run(graph, rest, preset=preset, options=["--table", table, *options])

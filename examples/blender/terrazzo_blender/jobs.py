@@ -12,12 +12,12 @@ KEPT = 5
 
 
 class Job:
-    def __init__(self, title, arguments, preferred, request, on_finished, on_failed, prepare=None):
+    def __init__(self, title, arguments, preferred, request, on_finished, on_failed, prepare=None, reads_output=False):
         """request: what on_finished(job) needs; it is called in the main thread when a run has been completed.
-        on_failed(folder) is called with the folder of results if none has been. prepare: as child.Child takes it."""
+        on_failed(folder) is called with the folder of results if none has been. The rest as child.Child takes it."""
         self.title, self.request, self._on_finished, self._on_failed = title, request, on_finished, on_failed
         self.progress = progress.Progress()
-        self.child = child.Child(preferred, arguments, prepare)
+        self.child = child.Child(preferred, arguments, prepare, reads_output)
         self.file = bpy.data.filepath
         self.is_orphan = False
         self.made = ""  # the name of the material that has been made
@@ -27,14 +27,15 @@ class Job:
         self.child.cancel()
 
     def tick(self):
-        """Takes what the program has reported; returns whether it goes on."""
-        for event in self.child.poll():
+        """Takes what the program has reported; returns whether that was anything."""
+        events = self.child.poll()
+        for event in events:
             self.progress.feed(event)
             if event["event"] == "finished" and event.get("ok"):
                 self._finish()
         if self.child.has_ended and self.progress.runs == 0:
             self._on_failed(self.request["out"])
-        return not self.child.has_ended
+        return bool(events)
 
     def _finish(self):
         if self.is_orphan:
@@ -59,7 +60,10 @@ class Job:
 
 
 def start(*arguments):
-    job = Job(*arguments)
+    return add(Job(*arguments))
+
+
+def add(job):
     jobs.append(job)
     if not bpy.app.timers.is_registered(look):
         bpy.app.timers.register(look, first_interval=INTERVAL, persistent=True)
@@ -70,12 +74,14 @@ def look():
     """The timer: takes reports of all jobs. Returns when to be called again, or None."""
     if compat.is_rendering():
         return INTERVAL
-    for job in list(jobs):
-        if not job.tick():
+    news = [job for job in list(jobs) if job.tick()]
+    for job in news:
+        if job.child.has_ended:
             jobs.remove(job)
             history.insert(0, job)
             del history[KEPT:]
-    redraw()
+    if news:
+        redraw()
     return INTERVAL if jobs else None
 
 

@@ -8,7 +8,7 @@ import bpy
 from . import build_material, compat, result, surface, tree, uv_group
 
 KEY = "terrazzo"  # the custom property of materials that were made
-choices = {"folder": "", "seeds": []}
+choices = {"pictures": {}}  # a file for each seed
 
 
 def stored_request(material):
@@ -184,12 +184,18 @@ def assign(material, old, object_name):
 
 
 def offer_choices(job):
-    """Eight lit pictures are there to choose from."""
-    folder, seeds = job.request["out"], job.request["seeds"]
-    missing = [s for s in seeds if not os.path.isfile(os.path.join(folder, str(s), "lit.png"))]
-    if missing:
-        raise ValueError(f"the pictures of the seeds {missing} are missing")
-    choices["folder"], choices["seeds"] = folder, list(seeds)
+    """A picture of each seed is there to choose from."""
+    choices["pictures"] = {s: picture_in(os.path.join(job.request["out"], str(s))) for s in job.request["seeds"]}
+
+
+def picture_in(folder):
+    """A lit picture, or the first of the maps that a graph of one's own has written. Raises ValueError."""
+    lit = os.path.join(folder, "lit.png")
+    if os.path.isfile(lit):
+        return lit
+    found = result.from_files([os.path.join(f, n) for f, _, names in os.walk(folder) for n in names])
+    first = next(m for m in result.NAMES if m in found.files)
+    return os.path.join(found.folder, found.files[first]["file"])
 
 
 def add_result(folder):

@@ -1,10 +1,9 @@
 import os
-import subprocess
 
 import bpy
 import numpy
 
-from . import graph_file, jobs, making, masks, program, requests, settings as panel, surface
+from . import editor, graph_file, graphs, jobs, making, masks, program, requests, settings as panel
 from .preferences import preferences
 
 PROBLEMS = (requests.RequestError, program.ProgramError, graph_file.GraphError, ValueError, OSError)
@@ -43,9 +42,10 @@ class TERRAZZO_OT_another_seed(Action):
     bl_description = "Makes another arrangement of the same exemplar"
 
     def act(self, context, settings):
-        if settings.use_graph:
-            raise requests.RequestError("Change the seed among the graph's fields.")
-        settings.seed += 1
+        if not settings.use_graph:
+            settings.seed += 1
+        else:
+            panel.set_field(settings.parameters["seed"], str(requests.graph_seed(settings) + 1))
         requests.start_make(settings, context.object)
 
 
@@ -63,8 +63,11 @@ class TERRAZZO_OT_choose(Action):
     seed: bpy.props.IntProperty()
 
     def act(self, context, settings):
-        settings.seed = self.seed
-        requests.start_make(settings, context.object, seed=self.seed)
+        if settings.use_graph:
+            panel.set_field(settings.parameters["seed"], str(self.seed))
+        else:
+            settings.seed = self.seed
+        requests.start_make(settings, context.object)
 
 
 class TERRAZZO_OT_cancel(Action):
@@ -83,11 +86,7 @@ class TERRAZZO_OT_measure(Action):
 
     def act(self, context, settings):
         material = context.object.active_material if context.object else None
-        picked = requests.picked_from(material)
-        pixels = requests.exemplar_pixels(picked)
-        if pixels is None:
-            raise requests.RequestError("The images of the material cannot be opened.")
-        settings.density = surface.density_now(requests.measured(context.object, material), pixels, picked.scale)
+        settings.density = requests.density_now(context.object, requests.picked_from(material))
 
 
 class TERRAZZO_OT_read_graph(Action):
@@ -95,22 +94,16 @@ class TERRAZZO_OT_read_graph(Action):
     bl_description = "Reads the graph's exposed parameters and presets"
 
     def act(self, _context, settings):
-        path = settings.graph
-        if path.startswith("stock:"):
-            path = stock_graph(path)
-        path = bpy.path.abspath(path)
-        panel.fill_parameters(settings, graph_file.read(path), path)
+        graphs.read_into(settings)
 
 
-def stock_graph(name):
-    """The text of a stock graph as a file in Blender's folder for temporary files."""
-    found = program.find(preferences().program)
-    target = os.path.join(bpy.app.tempdir, name.replace(":", "-") + ".json")
-    asked = subprocess.run([found, "format", name, "-o", target, "--force"], stdin=subprocess.DEVNULL,
-                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=20)
-    if asked.returncode != 0:
-        raise requests.RequestError(asked.stdout.decode("utf-8", "replace").strip())
-    return target
+class TERRAZZO_OT_edit(Action):
+    bl_idname, bl_label = "terrazzo.edit", "Open the editor"
+    bl_description = ("Opens the graph in the browser, and updates the material whenever it is changed there. If there is no "
+                      "graph of your own yet, one is made of these settings")
+
+    def act(self, context, settings):
+        editor.start(settings, context.object)
 
 
 class TERRAZZO_OT_check_program(Action):
@@ -184,5 +177,5 @@ class TERRAZZO_OT_add_result(Action):
 
 
 CLASSES = (TERRAZZO_OT_make, TERRAZZO_OT_watch, TERRAZZO_OT_another_seed, TERRAZZO_OT_best_of_eight, TERRAZZO_OT_choose,
-           TERRAZZO_OT_cancel, TERRAZZO_OT_measure, TERRAZZO_OT_read_graph, TERRAZZO_OT_check_program,
+           TERRAZZO_OT_cancel, TERRAZZO_OT_measure, TERRAZZO_OT_read_graph, TERRAZZO_OT_edit, TERRAZZO_OT_check_program,
            TERRAZZO_OT_bake_mask, TERRAZZO_OT_add_result)

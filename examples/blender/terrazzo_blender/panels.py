@@ -1,10 +1,10 @@
-import os
 import textwrap
 
 import bpy
 import bpy.utils.previews
 
-from . import jobs, making, settings as panel
+from . import jobs, making, program, settings as panel
+from .preferences import preferences
 
 CHARACTER = 5.6  # pixels, on average, at a scale of 1
 _pictures = {}
@@ -33,65 +33,103 @@ class TERRAZZO_PT_main(Part, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.terrazzo
-        layout.prop(settings, "source")
+        draw_missing_program(layout)
+        layout.prop(settings, "source", text="")
         if settings.source == "FOLDER":
-            layout.prop(settings, "folder")
+            layout.prop(settings, "folder", text="")
             layout.prop(settings, "name")
         elif context.object is None or context.object.active_material is None:
             lines(layout, "Select an object that has a material.", "INFO")
-        layout.prop(settings, "use_graph")
         if settings.use_graph:
-            draw_graph(layout, settings)
+            lines(layout, "As the graph below says.", "NODETREE")
         else:
-            draw_own(layout, settings)
-        layout.prop(settings, "relief")
-        layout.prop(settings, "assign")
+            draw_size(layout, settings)
+            column = layout.column(align=True)
+            column.prop(settings, "seed")
+            column.prop(settings, "quality", text="")
         column = layout.column(align=True)
         column.scale_y = 1.3
         column.operator("terrazzo.make", icon="ADD")
+        for i, job in enumerate(jobs.jobs):
+            row = layout.row(align=True)
+            row.label(text=job.title, icon="RENDER_ANIMATION")
+            row.operator("terrazzo.cancel", text="", icon="X").index = i
+            lines(layout, job.summary)
         row = layout.row(align=True)
         row.operator("terrazzo.another_seed")
         row.operator("terrazzo.best_of_eight")
-        row = layout.row(align=True)
-        row.operator("terrazzo.watch", icon="HIDE_OFF")
-        row.operator("terrazzo.add_result", icon="FILE_FOLDER")
 
 
-def draw_own(layout, settings):
+def draw_missing_program(layout):
+    try:
+        program.find(preferences().program)
+    except program.ProgramError as e:
+        box = layout.box()
+        lines(box, str(e), "ERROR")
+        box.prop(preferences(), "program", text="")
+
+
+def draw_size(layout, settings):
     column = layout.column(align=True)
-    column.prop(settings, "size_by")
+    column.prop(settings, "size_by", text="")
     if settings.size_by == "FACTOR":
         column.prop(settings, "factor")
     elif settings.size_by == "PIXELS":
         column.row(align=True).prop(settings, "size", text="")
     else:
-        column.prop(settings, "density")
-        column.operator("terrazzo.measure")
+        if settings.size_by == "DENSITY":
+            row = column.row(align=True)
+            row.prop(settings, "density")
+            row.operator("terrazzo.measure", text="", icon="DRIVER_DISTANCE")
         column.prop(settings, "most")
-    column = layout.column(align=True)
-    for name in ("seed", "tileable", "quality", "method", "blend", "as_uv", "use_weights"):
-        column.prop(settings, name)
-    if settings.use_weights:
-        for i, (_, label, _default) in enumerate(panel.MAP_NAMES):
-            column.prop(settings, "weights", index=i, text=label)
 
 
-def draw_graph(layout, settings):
-    row = layout.row(align=True)
-    row.prop(settings, "graph", text="")
-    row.operator("terrazzo.read_graph", text="", icon="FILE_REFRESH")
-    if not settings.graph_read:
-        return
-    if settings.graph_presets:
-        layout.prop(settings, "preset")
-        lines(layout, "Presets: " + settings.graph_presets.replace("\n", ", "))
-    for parameter in settings.parameters:
-        if parameter.role:
-            continue
+class TERRAZZO_PT_settings(Part, bpy.types.Panel):
+    bl_idname, bl_label, bl_parent_id, bl_options = "TERRAZZO_PT_settings", "Settings", "TERRAZZO_PT_main", {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        settings = context.scene.terrazzo
+        column = self.layout.column(align=True)
+        if not settings.use_graph:
+            for name in ("tileable", "method"):
+                column.prop(settings, name, text="")
+            for name in ("blend", "as_uv", "use_weights"):
+                column.prop(settings, name)
+            if settings.use_weights:
+                for i, (_, label, _default) in enumerate(panel.MAP_NAMES):
+                    column.prop(settings, "weights", index=i, text=label)
+        column.prop(settings, "relief")
+        column.prop(settings, "assign")
+
+
+class TERRAZZO_PT_graph(Part, bpy.types.Panel):
+    bl_idname, bl_label, bl_parent_id, bl_options = "TERRAZZO_PT_graph", "Own graph", "TERRAZZO_PT_main", {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.terrazzo, "use_graph", text="")
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.terrazzo
         row = layout.row(align=True)
-        row.prop(parameter, parameter.field(), text=parameter.name)
-        if parameter.kind == "path":
-            row.operator("terrazzo.bake_mask", text="", icon="BRUSH_DATA").parameter = parameter.name
+        row.operator("terrazzo.edit", icon="NODETREE")
+        row.operator("terrazzo.watch", icon="HIDE_OFF")
+        column = layout.column()
+        column.active = settings.use_graph
+        row = column.row(align=True)
+        row.prop(settings, "graph", text="")
+        row.operator("terrazzo.read_graph", text="", icon="FILE_REFRESH")
+        if settings.graph_problem:
+            lines(column, settings.graph_problem, "ERROR")
+        if settings.graph_presets:
+            column.prop(settings, "preset")
+            lines(column, "Presets: " + settings.graph_presets.replace("\n", ", "))
+        for parameter in settings.parameters:
+            if parameter.role:
+                continue
+            row = column.row(align=True)
+            row.prop(parameter, parameter.field(), text=parameter.name)
+            if parameter.kind == "path":
+                row.operator("terrazzo.bake_mask", text="", icon="BRUSH_DATA").parameter = parameter.name
 
 
 class TERRAZZO_PT_runs(Part, bpy.types.Panel):
@@ -101,14 +139,11 @@ class TERRAZZO_PT_runs(Part, bpy.types.Panel):
         layout = self.layout
         if not jobs.jobs and not jobs.history:
             layout.label(text="Nothing has been run yet.")
-        for i, job in enumerate(jobs.jobs):
-            row = layout.row(align=True)
-            row.label(text=job.title, icon="RENDER_ANIMATION")
-            row.operator("terrazzo.cancel", text="", icon="X").index = i
+        for job in jobs.jobs + jobs.history:
+            icon = "RENDER_ANIMATION" if job in jobs.jobs else "ERROR" if job.has_failed else "CHECKMARK"
+            layout.label(text=job.title, icon=icon)
             draw_job(layout, job)
-        for job in jobs.history:
-            layout.label(text=job.title, icon="ERROR" if job.has_failed else "CHECKMARK")
-            draw_job(layout, job)
+        layout.operator("terrazzo.add_result", icon="FILE_FOLDER")
 
 
 def draw_job(layout, job):
@@ -136,18 +171,17 @@ class TERRAZZO_PT_choices(Part, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and bool(making.choices["seeds"])
+        return super().poll(context) and bool(making.choices["pictures"])
 
     def draw(self, _context):
         grid = self.layout.grid_flow(columns=2, row_major=True, even_columns=True)
-        for seed in making.choices["seeds"]:
+        for seed, path in making.choices["pictures"].items():
             column = grid.column(align=True)
-            column.template_icon(icon_value=picture(seed), scale=6)
+            column.template_icon(icon_value=icon_of(path), scale=6)
             column.operator("terrazzo.choose", text=f"Seed {seed}").seed = seed
 
 
-def picture(seed):
-    path = os.path.join(making.choices["folder"], str(seed), "lit.png")
+def icon_of(path):
     if not _pictures:
         _pictures["choices"] = bpy.utils.previews.new()
     pictures = _pictures["choices"]
@@ -175,4 +209,4 @@ def unregister():
     _pictures.clear()
 
 
-CLASSES = (TERRAZZO_PT_main, TERRAZZO_PT_runs, TERRAZZO_PT_notes, TERRAZZO_PT_choices, TERRAZZO_PT_mask)
+CLASSES = (TERRAZZO_PT_main, TERRAZZO_PT_settings, TERRAZZO_PT_graph, TERRAZZO_PT_runs, TERRAZZO_PT_notes, TERRAZZO_PT_choices, TERRAZZO_PT_mask)

@@ -5,17 +5,19 @@ import shutil
 import subprocess
 
 OLDEST = (0, 1, 0)
-WAY_TO_GET = ("Build it (examples/quickstart.sh) or install its package, and give its path under "
+WAY_TO_GET = ("Unpack its tarball, install its package or build it (examples/quickstart.sh), and give its path under "
               "Edit > Preferences > Add-ons > terrazzo")
 USUAL_PLACES = ("~/.local/bin/terrazzo", "/usr/local/bin/terrazzo", "/opt/terrazzo/bin/terrazzo")
+WRITTEN_BY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "written_by.txt")  # holds the path of the program
 
 
 class ProgramError(Exception):
     """There is no usable program; the message says what to do."""
 
 
-def find(preferred="", environment=None, places=USUAL_PLACES):
-    """The path of the program: the preferred one, $TERRAZZO, on the PATH, or in a usual place. Raises ProgramError."""
+def find(preferred="", environment=None, places=USUAL_PLACES, written_by=WRITTEN_BY):
+    """The path of the program: the preferred one, $TERRAZZO, the one that wrote this add-on, on the PATH, or in a usual
+    place. Raises ProgramError."""
     environment = os.environ if environment is None else environment
     for path, origin in ((preferred, "in the preferences"), (environment.get("TERRAZZO", ""), "in $TERRAZZO")):
         if not path:
@@ -28,11 +30,19 @@ def find(preferred="", environment=None, places=USUAL_PLACES):
         if not os.access(path, os.X_OK):
             raise ProgramError(f"{path}, which is named {origin}, is not executable. {WAY_TO_GET}.")
         return os.path.abspath(path)
-    found = shutil.which("terrazzo", path=environment.get("PATH", ""))
-    for path in ([found] if found else []) + [os.path.expanduser(p) for p in places]:
-        if os.path.isfile(path) and os.access(path, os.X_OK):
+    found = [text_in(written_by), shutil.which("terrazzo", path=environment.get("PATH", ""))]
+    for path in found + [os.path.expanduser(p) for p in places]:
+        if path and os.path.isfile(path) and os.access(path, os.X_OK):
             return path
     raise ProgramError(f"The program terrazzo was not found. {WAY_TO_GET}.")
+
+
+def text_in(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.read().strip()
+    except (OSError, ValueError):
+        return ""
 
 
 def version_in(text):

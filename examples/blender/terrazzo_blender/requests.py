@@ -5,7 +5,7 @@ import re
 import bpy
 import numpy
 
-from . import command, jobs, making, program, settings as panel, sources, surface, tree, uv_group
+from . import command, graphs, jobs, making, program, settings as panel, sources, surface, tree, uv_group
 from .preferences import preferences
 
 CHOICES = 8
@@ -28,9 +28,9 @@ def results_folder():
     return bpy.path.abspath(place)
 
 
-def new_folder(name):
-    """A folder that no other run uses."""
-    root = results_folder()
+def new_folder(name, root=""):
+    """A folder that no other run uses, in the folder of results if no other is given."""
+    root = root or results_folder()
     stem = re.sub(r"[^\w.-]+", "_", name).strip("._") or "material"
     for number in range(1, 100000):
         folder = os.path.join(root, f"{stem}-{number:02}")
@@ -69,15 +69,21 @@ def picked_from(material):
         raise RequestError(str(e))
 
 
-def exemplar_pixels(picked):
-    sizes = [tuple(u.image.size) for u in picked.maps.values()]
-    return max(sizes) if sizes and min(max(sizes)) > 0 else None
+def density_now(object, picked):
+    """The pixels per metre that an object shows of its material."""
+    if picked is None:
+        raise RequestError("How densely the object shows the maps of a folder is not known: choose another size than 'Fit "
+                           "object'.")
+    pixels = max(tuple(u.image.size) for u in picked.maps.values())
+    if min(pixels) == 0:
+        raise RequestError("The images of the material cannot be opened.")
+    return surface.density_now(measured(object, object.active_material), pixels, picked.scale)
 
 
 def triangles(object, material):
     """Corners in metres and in the UV plane of the triangles of an object that have a material (or all)."""
     if object is None or object.type != "MESH":
-        raise RequestError("The active object is no mesh. Select the object that the material is on.")
+        raise RequestError("The active object is no mesh, whose UVs say how large it is. Select a mesh, or choose another size.")
     if object.mode == "EDIT":
         object.update_from_editmode()
     mesh = object.data
@@ -135,26 +141,18 @@ class Source:
             raise RequestError(f"The maps cannot be gathered in {folder}: {e}")
 
 
-def start_make(settings, object, watch=False, seed=None):
+def start_make(settings, object, watch=False):
     program.find(preferences().program)
     source = Source(settings, object)
-    if settings.as_uv and settings.method == "noise" and not settings.use_graph:
-        raise RequestError("Noise blends samples, so it has no uv map: choose the method Layout.")
-    values = panel.values_of(settings)
     request = {"source": source.material.name if source.material else "", "object": object.name if object else "",
                "assign": settings.assign, "relief": settings.relief, "title": source.title,
                "as_uv": settings.as_uv and not settings.use_graph}
-    notes = []
     if settings.use_graph:
         return start_graph(settings, source, request, watch)
-    if seed is not None:
-        values["seed"] = seed
+    values, notes = values_of(settings, object, source, request)
     request["seed"] = values["seed"]
-    notes += set_size(settings, object, source, values, request)
     folder = new_folder(source.title)
     values["material"], more = source.gather(folder)
-    if source.name and source.folder:
-        values["name"] = source.name
     values["write"] = "uv" if request["as_uv"] else "maps"
     values["out"] = request["out"] = folder
     job = jobs.start(f"{source.title}, seed {values['seed']}", command.make(values, watch, options()),
@@ -164,38 +162,40 @@ def start_make(settings, object, watch=False, seed=None):
     return job
 
 
-def set_size(settings, object, source, values, request):
-    """Sets scale or size, and the Mapping where the object decides. Returns notes."""
+def values_of(settings, object, source, request):
+    """Values for material.json, but material and out, and notes. The Mapping goes to the request where the object decides."""
+    if settings.as_uv and settings.method == "noise":
+        raise RequestError("Noise blends samples, so it has no uv map: choose the method Layout.")
+    values, notes = panel.values_of(settings), []
+    if source.name and source.folder:
+        values["name"] = source.name
     if settings.size_by == "FACTOR":
         values["scale"] = round(settings.factor, 5)
     elif settings.size_by == "PIXELS":
         values["size"] = list(settings.size)
     else:
-        fit = surface.fit(measured(object, object.active_material if object else None), settings.density, settings.most)
+        shown = measured(object, object.active_material if object else None)
+        density = settings.density if settings.size_by == "DENSITY" else density_now(object, source.picked)
+        fit = surface.fit(shown, density, settings.most)
         values["size"] = list(fit.size)
         request["scale"], request["offset"] = list(fit.scale), list(fit.offset)
+        notes = fit.notes
         if fit.repeats and values["tileable"] != "xy":
             values["tileable"] = "xy"
-            fit.notes.append("It is made tileable for that.")
-        return fit.notes
-    return []
+            notes.append("It is made tileable for that.")
+        if not fit.repeats:
+            notes.append("{} x {} pixels cover the object once.".format(*fit.size))
+    return values, notes
 
 
 def start_graph(settings, source, request, watch):
-    path = settings.graph if settings.graph.startswith("stock:") else bpy.path.abspath(settings.graph)
-    if not path:
-        raise RequestError("Choose a graph file.")
     folder = new_folder(source.title)
-    values = panel.graph_values(settings)
-    notes = []
-    for parameter in settings.parameters:
-        if parameter.role == "source":
-            values[parameter.name], notes = source.gather(folder)
-        elif parameter.role == "out":
-            values[parameter.name] = folder
-        elif parameter.baked and parameter.value() == parameter.baked:
-            request["scale"], request["offset"] = [1, 1], [0, 0]  # where the mask was painted
+    path, values, notes = graph_values(settings, source, folder)
+    if any(p.baked and p.value() == p.baked for p in settings.parameters):
+        request["scale"], request["offset"] = [1, 1], [0, 0]  # where the mask was painted
     request["out"], request["seed"] = folder, values.get("seed", "")
+    if watch:
+        request["watched"] = path
     job = jobs.start(f"{source.title}, {os.path.basename(path)}",
                      command.run(path, values, watch, settings.preset, options()), preferences().program, request,
                      making.finish, making.discard)
@@ -203,21 +203,50 @@ def start_graph(settings, source, request, watch):
     return job
 
 
+def graph_values(settings, source, folder):
+    """A graph of one's own, values of its parameters, and notes. folder: for what it writes."""
+    graphs.read_into(settings)
+    values, notes = panel.graph_values(settings), []
+    for parameter in settings.parameters:
+        if parameter.role == "source":
+            values[parameter.name], notes = source.gather(folder)
+        elif parameter.role == "out":
+            values[parameter.name] = folder
+    return graphs.path_of(settings), values, notes
+
+
 def start_choices(settings, object):
-    if settings.use_graph:
-        raise RequestError("Best of eight needs the add-on's own graph: switch 'Own graph' off.")
+    """Pictures of several seeds, in a folder that goes when Blender ends."""
     program.find(preferences().program)
     source = Source(settings, object)
-    values = panel.values_of(settings)
-    request = {"title": source.title, "seeds": list(range(settings.seed, settings.seed + CHOICES))}
-    notes = set_size(settings, object, source, values, request)
-    folder = new_folder(source.title + "-choices")
-    values["material"], more = source.gather(folder)
-    if source.name and source.folder:
-        values["name"] = source.name
-    values["out"] = request["out"] = folder
-    arguments = command.choices(values, request["seeds"], os.path.join(folder, "seeds.json"), options())
-    job = jobs.start(f"{source.title}, eight seeds", arguments, preferences().program, request,
-                     making.offer_choices, making.discard)
-    job.messages = notes + more
+    folder = new_folder(source.title + "-choices", bpy.app.tempdir)
+    table = os.path.join(folder, "seeds.json")
+    if settings.use_graph:
+        path, values, notes = graph_values(settings, source, folder)
+        seeds = seeds_from(graph_seed(settings))
+        out = next((p.name for p in settings.parameters if p.role == "out"), "")
+        if not out:
+            raise RequestError("The graph has no parameter 'out' for the folder that it writes to.")
+        arguments = command.variations(path, values, seeds, table, out, settings.preset, options())
+    else:
+        values, notes = values_of(settings, object, source, {})
+        values["material"], more = source.gather(folder)
+        notes, seeds = notes + more, seeds_from(settings.seed)
+        arguments = command.choices({**values, "out": folder}, seeds, table, options())
+    job = jobs.start(f"{source.title}, eight seeds", arguments, preferences().program,
+                     {"out": folder, "title": source.title, "seeds": seeds}, making.offer_choices, making.discard)
+    job.messages = notes
     return job
+
+
+def graph_seed(settings):
+    """The seed of a graph of one's own."""
+    field = settings.parameters.get("seed")
+    text = (field.value() or field.default) if field is not None else ""
+    if not text.isdigit():
+        raise RequestError("The graph has no parameter 'seed' that is a number.")
+    return int(text)
+
+
+def seeds_from(first):
+    return list(range(first, first + CHOICES))

@@ -1,7 +1,7 @@
 # What the panel asks for, stored with the scene.
 import bpy
 
-from . import graph_file
+from . import graph_file, program
 
 MAP_NAMES = (("base_color", "Base color", 1.0), ("normal", "Normal", 0.5), ("height", "Height", 0.7),
              ("roughness", "Roughness", 0.3), ("metallic", "Metallic", 0.5), ("ambient_occlusion", "Occlusion", 0.3))
@@ -48,9 +48,21 @@ class GraphParameter(bpy.types.PropertyGroup):
         return "" if text == self.default else text
 
 
+def read_graph(settings, _context):
+    """When another graph has been chosen."""
+    from . import graphs
+    settings.graph_problem = ""
+    settings.parameters.clear()
+    try:
+        if settings.graph:
+            graphs.read_into(settings)
+    except (graph_file.GraphError, program.ProgramError) as e:
+        settings.graph_problem = str(e)
+
+
 def fill_parameters(settings, document, path):
     """Makes a field for each exposed parameter; values of fields that stay are kept."""
-    before = {p.name: p.value() for p in settings.parameters}
+    before = {p.name: (p.value(), p.baked) for p in settings.parameters}
     settings.parameters.clear()
     for name, declaration in graph_file.parameters(document):
         field = settings.parameters.add()
@@ -60,13 +72,14 @@ def fill_parameters(settings, document, path):
         field.choices = "\n".join(declaration.get("choices", []))
         field.default = graph_file.text_of(declaration["default"]) if "default" in declaration else ""
         field.role = graph_file.role(name, declaration)
-        text = before.get(name) or ("" if field.field() in ("text", "path") else field.default)
+        text, field.baked = before.get(name, ("", ""))
+        text = text or ("" if field.field() in ("text", "path") else field.default)
         try:
             set_field(field, text)
         except (ValueError, TypeError):
             set_field(field, field.default)
     settings.graph_presets = "\n".join(graph_file.presets(path, document))
-    settings.graph_read = path
+    settings.graph_problem = ""
 
 
 def set_field(field, text):
@@ -79,34 +92,37 @@ def set_field(field, text):
 
 class Settings(bpy.types.PropertyGroup):
     source: bpy.props.EnumProperty(name="Source", items=[
-        ("MATERIAL", "Active material", "The image textures of the active material"),
-        ("FOLDER", "Folder", "A folder of maps")])
-    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH")
+        ("MATERIAL", "From the active material", "The image textures of the active material"),
+        ("FOLDER", "From a folder", "A folder of maps")])
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", description="The folder of maps")
     name: bpy.props.StringProperty(name="Name", description="Which material of a folder that holds several")
     size_by: bpy.props.EnumProperty(name="Size", items=[
-        ("FACTOR", "Factor", "How many times the exemplar, in each direction"),
-        ("PIXELS", "Pixels", "Width and height in pixels"),
-        ("OBJECT", "Fit object", "Covers the active object's surface once, from its UVs and its scale")])
+        ("OBJECT", "Fit object", "Covers the active object's surface once, as dense as it shows the material now"),
+        ("DENSITY", "Fit object at a density", "Covers the active object's surface once, at so many pixels per metre"),
+        ("FACTOR", "Times the exemplar", "How many times the exemplar, in each direction"),
+        ("PIXELS", "Pixels", "Width and height in pixels")])
     factor: bpy.props.FloatProperty(name="Times", default=2, min=0.1, max=64)
     size: bpy.props.IntVectorProperty(name="Pixels", size=2, default=(2048, 2048), min=1, max=32768)
-    density: bpy.props.FloatProperty(name="Pixels per metre", default=512, min=0.01)
-    most: bpy.props.IntProperty(name="At most", default=8192, min=16, max=32768,
+    density: bpy.props.FloatProperty(name="Pixels per m", default=512, min=0.01, description="Pixels per metre of surface")
+    most: bpy.props.IntProperty(name="At most", default=4096, min=16, max=32768,
                                 description="Pixels a side; a larger surface repeats the result")
     seed: bpy.props.IntProperty(name="Seed", default=1, min=0, description="Another seed gives another arrangement")
     tileable: bpy.props.EnumProperty(name="Tileable", default="xy", items=[
-        ("none", "No", "The result has borders"), ("x", "In x", ""), ("y", "In y", ""), ("xy", "Yes", "It wraps around")])
+        ("none", "Not tileable", "The result has borders"), ("x", "Tileable in x", ""), ("y", "Tileable in y", ""),
+        ("xy", "Tileable", "It wraps around")])
     quality: bpy.props.EnumProperty(name="Quality", default="normal", items=[
-        ("draft", "Draft", "For trying settings"), ("normal", "Normal", ""), ("best", "Best", "For final results")])
+        ("draft", "Draft quality", "For trying settings"), ("normal", "Normal quality", ""),
+        ("best", "Best quality", "For final results")])
     method: bpy.props.EnumProperty(name="Method", items=[
-        ("layout", "Layout", "Lays pieces of the exemplar: for all that has structure"),
-        ("noise", "Noise", "Blends random samples: for surfaces without structure, such as sand")])
+        ("layout", "Layout of pieces", "Lays pieces of the exemplar: for all that has structure"),
+        ("noise", "Noise by example", "Blends random samples: for surfaces without structure, such as sand")])
     blend: bpy.props.FloatProperty(name="Blend", default=0, min=0, max=8, description="Width of seams in pixels")
     use_weights: bpy.props.BoolProperty(name="Weights", description="How much each map counts when parts are compared")
     weights: bpy.props.FloatVectorProperty(size=len(MAP_NAMES), default=[w for _, _, w in MAP_NAMES], min=0, max=100)
     use_graph: bpy.props.BoolProperty(name="Own graph", description="Run a graph of your own")
-    graph: bpy.props.StringProperty(name="Graph", subtype="FILE_PATH",
+    graph: bpy.props.StringProperty(name="Graph", subtype="FILE_PATH", update=read_graph,
                                     description="A graph file, or stock:NAME for one that comes with the program")
-    graph_read: bpy.props.StringProperty()
+    graph_problem: bpy.props.StringProperty()
     graph_presets: bpy.props.StringProperty()
     preset: bpy.props.StringProperty(name="Preset", description="A preset of the graph; its values count where a field is "
                                      "at its default")

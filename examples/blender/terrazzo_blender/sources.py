@@ -15,33 +15,59 @@ class SourceError(Exception):
     """An image cannot be used; the message says why, and what to do."""
 
 
-def problem_of(image, path):
-    """Why the program cannot read an image, or nothing. path: its file, without Blender's //."""
+class File:
+    """What the program gets of an image: a file, or the bytes of a packed one; of a UDIM set, one tile."""
+
+    def __init__(self, image, path, tile):
+        """path: the image's file, without Blender's //. tile: a number such as 1001."""
+        packed, self.path = image.packed_file, path
+        if image.source == "TILED":
+            column, row = (tile - 1001) % 10 + 1, (tile - 1001) // 10 + 1
+            self.path = path.replace("<UDIM>", str(tile)).replace("<UVTILE>", f"u{column}_v{row}")
+            packed = next((p.packed_file for p in image.packed_files if p.tile_number == tile), None)
+        self.image, self.data = image, None if packed is None else bytes(packed.data)
+
+    def problem(self):
+        """Why the program cannot read it, or nothing."""
+        return problem_of(self.image, self.path, self.data is not None)
+
+    def ending(self):
+        """The ending of the file's name, of a packed one by its content."""
+        ending = os.path.splitext(self.path)[1].lower()
+        if self.data is None:
+            return ending
+        return next((e for magic, e in MAGIC if self.data.startswith(magic)), ending or ".tga")
+
+    def place(self, target):
+        """Puts it at a place: the packed bytes, a link, or a copy where there are no links."""
+        if self.data is not None:
+            if not os.path.isfile(target) or open(target, "rb").read() != self.data:
+                with open(target, "wb") as file:
+                    file.write(self.data)
+            return
+        if os.path.lexists(target):
+            os.remove(target)
+        try:
+            os.symlink(os.path.abspath(self.path), target)
+        except OSError:
+            shutil.copyfile(self.path, target)
+
+
+def problem_of(image, path, is_packed):
     name = f"The image '{image.name}'"
-    if image.source == "TILED":
-        return f"{name} is a UDIM set of {len(image.tiles)} tiles. Choose the folder of one tile's maps as the source."
     if image.source in ("SEQUENCE", "MOVIE"):
         return f"{name} is a {image.source.lower()}; only single images are taken."
     if image.is_dirty:
         return f"{name} has changes that are not saved. Save it (Image > Save) or pack it first."
-    if image.packed_file is not None:
+    if is_packed:
         return ""
     if image.source == "GENERATED":
         return f"{name} is generated and has no file. Save it (Image > Save As) or pack it first."
-    if image.source != "FILE":
+    if image.source not in ("FILE", "TILED"):
         return f"{name} is of the kind {image.source}, which has no file."
     if not os.path.isfile(path):
         return f"{name} is missing: there is no file {path}. File > External Data > Find Missing Files may find it."
     return ""
-
-
-def ending_of(image, path):
-    """The ending of the file's name, of a packed one by its content."""
-    ending = os.path.splitext(path)[1].lower()
-    if image.packed_file is None:
-        return ending
-    first = bytes(image.packed_file.data[:8])
-    return next((e for magic, e in MAGIC if first.startswith(magic)), ending or ".tga")
 
 
 def channels_of(data):
@@ -56,43 +82,29 @@ def channels_of(data):
     return 0
 
 
-def place_file(image, path, target):
-    """Puts the file of an image at a place: the packed bytes, a link, or a copy where there are no links."""
-    if image.packed_file is not None:
-        data = bytes(image.packed_file.data)
-        if not os.path.isfile(target) or open(target, "rb").read() != data:
-            with open(target, "wb") as file:
-                file.write(data)
-        return
-    if os.path.lexists(target):
-        os.remove(target)
-    try:
-        os.symlink(os.path.abspath(path), target)
-    except OSError:
-        shutil.copyfile(path, target)
-
-
 def gather(maps, folder, path_of, name, metres=None):
     """Makes the folder: files named after their maps, and a description. maps: of tree.Picked. path_of(image): its
-    file. metres: the physical width and height, if they are known. Returns notes; raises SourceError."""
-    problems = []
-    for use in maps.values():
-        problem = problem_of(use.image, path_of(use.image))
-        if problem and problem not in problems:
-            problems.append(problem)
+    file. metres: the physical width and height, if they are known. Of UDIM sets it takes one tile: the active one of the
+    first set. Returns notes; raises SourceError."""
+    tiled = next((u.image for u in maps.values() if u.image.source == "TILED"), None)
+    tile = tiled.tiles.active.number if tiled is not None else 1001
+    sources = {use.image: File(use.image, path_of(use.image), tile) for use in maps.values()}
+    problems = [p for p in (s.problem() for s in sources.values()) if p]
     if problems:
         raise SourceError(" ".join(problems))
     os.makedirs(folder, exist_ok=True)
     files, names, notes = {}, {}, []
+    if tiled is not None:
+        notes.append(f"Tile {tile} of the UDIM set is taken: the active one of '{tiled.name}' (Image Editor > Sidebar > Image "
+                     "> UDIM Tiles).")
     for map, use in maps.items():
-        image, path = use.image, path_of(use.image)
-        key = getattr(image, "name_full", image.name)
-        if key not in names:
-            names[key] = map + ending_of(image, path)
-            place_file(image, path, os.path.join(folder, names[key]))
-        entry = files.setdefault(names[key], {"maps": {}})
+        image = use.image
+        if image not in names:
+            names[image] = map + sources[image].ending()
+            sources[image].place(os.path.join(folder, names[image]))
+        entry = files.setdefault(names[image], {"maps": {}})
         is_color = map in COLORS
-        entry["maps"][map] = use.channel or whole(map, os.path.join(folder, names[key]))
+        entry["maps"][map] = use.channel or whole(map, os.path.join(folder, names[image]))
         if use.inverted:
             entry.setdefault("inverted", []).append(map)
         if map == "normal":

@@ -1,0 +1,77 @@
+# The graph editor in the browser, on the graph that makes the material, which follows what is edited.
+import os
+import webbrowser
+
+import bpy
+
+from . import graphs, jobs, requests
+from .preferences import preferences
+
+
+class Editor(jobs.Job):
+    """A run of `terrazzo edit`, which says where its page is."""
+
+    def __init__(self, graph, folders):
+        """folders: what the graph may read besides its own folder."""
+        arguments = ["edit", graph, "--no-open", *requests.options()]
+        for folder in folders:
+            arguments += ["--allow", folder]
+        super().__init__("Editor: " + os.path.basename(graph), arguments, preferences().program, {"out": "", "graph": graph},
+                         lambda job: None, lambda folder: None, reads_output=True)
+        self.address = ""
+
+    def tick(self):
+        is_news = super().tick()
+        if not self.address and not self.child.has_ended:
+            self.address = next((n for n in self.progress.notes if n.startswith("http://")), "")
+            if self.address:
+                self.show()
+        return is_news
+
+    def show(self):
+        webbrowser.open(self.address)
+
+    @property
+    def summary(self):
+        if self.progress.code is None:
+            return "its page is open in the browser" if self.address else "starting"
+        return "closed" if self.progress.code == 0 else "\n".join(self.progress.errors or self.progress.notes)
+
+
+def start(settings, object):
+    """Opens the graph, which the panel uses from then on, and watches it."""
+    source = requests.Source(settings, object)
+    if not settings.use_graph or settings.graph.startswith(graphs.STOCK):
+        make_graph(settings, object, source)
+    path = graphs.path_of(settings)
+    running = next((j for j in jobs.jobs if isinstance(j, Editor) and j.request["graph"] == path), None)
+    if running is not None:
+        running.show()
+    else:
+        jobs.add(Editor(path, folders_of(source)))
+    if not any(j.request.get("watched") == path for j in jobs.jobs):
+        requests.start_make(settings, object, watch=True)
+
+
+def make_graph(settings, object, source):
+    """A file of the panel's settings or of a stock graph, in a folder of its own."""
+    folder = requests.new_folder(source.title + "-graph")
+    path = os.path.join(folder, os.path.basename(folder) + ".json")
+    if settings.use_graph:
+        graphs.format_into(settings.graph, path)
+    else:
+        values = requests.values_of(settings, object, source, {})[0]
+        values["material"], _ = source.gather(folder)
+        if not source.folder:
+            values["material"] = os.path.relpath(values["material"], folder)
+        graphs.write_own(values, path)
+    settings.use_graph = True
+    settings.graph = bpy.path.relpath(path) if bpy.data.filepath else path
+
+
+def folders_of(source):
+    """Where the maps of a source lie."""
+    if source.folder:
+        return [source.folder]
+    return sorted({os.path.dirname(os.path.realpath(requests.file_of(u.image))) for u in source.picked.maps.values()
+                   if u.image.packed_file is None})
