@@ -1,6 +1,6 @@
 # Draws the pictures of blender.md, in Blender. Called by blender_pictures.sh:
-#   blender --background --python blender_pictures.py -- wall ADDON.zip PROGRAM MAPS FOLDER    before.png, after.png
-#   xvfb-run blender --python blender_pictures.py -- panel ADDON.zip PROGRAM MAPS FOLDER       panel.png
+#   blender --background --python blender_pictures.py -- wall ADDON.zip MAPS FOLDER    before.png, after.png
+#   xvfb-run blender --python blender_pictures.py -- panel ADDON.zip MAPS FOLDER       panel.png
 import math
 import os
 import sys
@@ -9,14 +9,13 @@ import traceback
 
 import bpy
 
-PART, ARCHIVE, PROGRAM, MAPS, FOLDER = sys.argv[sys.argv.index("--") + 1:]
+PART, ARCHIVE, MAPS, FOLDER = sys.argv[sys.argv.index("--") + 1:]
 
 
 def install():
     bpy.ops.preferences.addon_install(filepath=ARCHIVE, overwrite=True)
     bpy.ops.preferences.addon_enable(module="terrazzo_blender")
-    own = bpy.context.preferences.addons["terrazzo_blender"].preferences
-    own.program, own.results = PROGRAM, FOLDER
+    bpy.context.preferences.addons["terrazzo_blender"].preferences.results = FOLDER
 
 
 def wall():
@@ -34,11 +33,7 @@ def wall():
     bpy.context.collection.objects.link(out)
     bpy.context.view_layer.objects.active = out
     out.select_set(True)
-    settings = bpy.context.scene.terrazzo
-    settings.size_by = "OBJECT"
-    bpy.ops.terrazzo.measure()
-    settings.seed = 2
-    return out
+    bpy.context.scene.terrazzo.seed = 2
 
 
 def wait():
@@ -130,8 +125,7 @@ class Screen:
 
 def show_panel():
     wall()
-    settings = bpy.context.scene.terrazzo
-    settings.quality, settings.density = "draft", settings.density / 2
+    bpy.context.scene.terrazzo.quality = "draft"
     # The side bar opens on the first of its tabs: without the others, that is the add-on's.
     for panel in bpy.types.Panel.__subclasses__():
         if getattr(panel, "bl_space_type", "") == "NODE_EDITOR" and getattr(panel, "bl_region_type", "") == "UI":

@@ -16,7 +16,7 @@ export BLENDER_USER_CONFIG=$scratch/config BLENDER_USER_SCRIPTS=$scratch/scripts
 mkdir config scripts
 "$program" run stock:generate-exemplar --set type=cobbles --set size=256 --set out=maps --progress none
 "$program" blender-addon -o addon.zip
-arguments=("$scratch/addon.zip" "$program" "$scratch/maps" "$scratch")
+arguments=("$scratch/addon.zip" "$scratch/maps" "$scratch")
 blender --background --factory-startup --python-exit-code 1 --python "$here/blender_pictures.py" -- wall "${arguments[@]}" >wall.log ||
   { cat wall.log; exit 1; }
 oiiotool before.png after.png --mosaic:pad=8 1x2 --ch R,G,B -o both.png

@@ -209,4 +209,5 @@ def unregister():
     _pictures.clear()
 
 
-CLASSES = (TERRAZZO_PT_main, TERRAZZO_PT_settings, TERRAZZO_PT_graph, TERRAZZO_PT_runs, TERRAZZO_PT_notes, TERRAZZO_PT_choices, TERRAZZO_PT_mask)
+CLASSES = (TERRAZZO_PT_main, TERRAZZO_PT_settings, TERRAZZO_PT_graph, TERRAZZO_PT_choices, TERRAZZO_PT_runs, TERRAZZO_PT_notes,
+           TERRAZZO_PT_mask)

@@ -104,8 +104,8 @@ class Settings(bpy.types.PropertyGroup):
     factor: bpy.props.FloatProperty(name="Times", default=2, min=0.1, max=64)
     size: bpy.props.IntVectorProperty(name="Pixels", size=2, default=(2048, 2048), min=1, max=32768)
     density: bpy.props.FloatProperty(name="Pixels per m", default=512, min=0.01, description="Pixels per metre of surface")
-    most: bpy.props.IntProperty(name="At most", default=4096, min=16, max=32768,
-                                description="Pixels a side; a larger surface repeats the result")
+    most: bpy.props.IntProperty(name="Pixels at most", default=4096, min=16, max=32768,
+                                description="Along each side; a larger surface repeats the result")
     seed: bpy.props.IntProperty(name="Seed", default=1, min=0, description="Another seed gives another arrangement")
     tileable: bpy.props.EnumProperty(name="Tileable", default="xy", items=[
         ("none", "Not tileable", "The result has borders"), ("x", "Tileable in x", ""), ("y", "Tileable in y", ""),
