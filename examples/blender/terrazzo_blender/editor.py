@@ -18,7 +18,7 @@ class Editor(jobs.Job):
             arguments += ["--allow", folder]
         super().__init__("Editor: " + os.path.basename(graph), arguments, preferences().program, {"out": "", "graph": graph},
                          lambda job: None, lambda folder: None, reads_output=True)
-        self.address = ""
+        self.address, self.is_shown = "", False
 
     def tick(self):
         is_news = super().tick()
@@ -29,12 +29,14 @@ class Editor(jobs.Job):
         return is_news
 
     def show(self):
-        webbrowser.open(self.address)
+        self.is_shown = webbrowser.open(self.address)
 
     @property
     def summary(self):
         if self.progress.code is None:
-            return "its page is open in the browser" if self.address else "starting"
+            if not self.address:
+                return "starting"
+            return "its page is open in the browser" if self.is_shown else f"open {self.address} in a browser"
         return "closed" if self.progress.code == 0 else "\n".join(self.progress.errors or self.progress.notes)
 
 
@@ -56,7 +58,7 @@ def start(settings, object):
 def make_graph(settings, object, source):
     """A file of the panel's settings or of a stock graph, in a folder of its own."""
     folder = requests.new_folder(source.title + "-graph")
-    path = os.path.join(folder, os.path.basename(folder) + ".json")
+    path = os.path.join(folder, requests.file_stem(source.title) + ".json")
     if settings.use_graph:
         graphs.format_into(settings.graph, path)
     else:

@@ -6,17 +6,18 @@ import bpy.utils.previews
 from . import jobs, making, program, settings as panel
 from .preferences import preferences
 
-CHARACTER = 5.6  # pixels, on average, at a scale of 1
+CHARACTER = 5.9  # pixels, on average, at a scale of 1
 _pictures = {}
 
 
-def lines(layout, text, icon="NONE"):
-    """A text in as many lines as the side bar's width asks for; Blender itself wraps nothing."""
+def lines(layout, text, icon="NONE", beside=0):
+    """A text in as many lines as the side bar's width asks for; Blender itself wraps nothing. beside: width of what
+    stands beside it."""
     column = layout.column(align=True)
-    margin = 75 if icon != "NONE" else 50
+    margin = (75 if icon != "NONE" else 50) + beside
     scale = bpy.context.preferences.system.ui_scale
     width = max(16, int((bpy.context.region.width / scale - margin) / CHARACTER))
-    for i, line in enumerate(textwrap.wrap(text, width) or [""]):
+    for i, line in enumerate(textwrap.wrap(text, width, break_on_hyphens=False) or [""]):
         column.label(text=line, icon=icon if i == 0 else "BLANK1" if icon != "NONE" else "NONE")
 
 
@@ -52,7 +53,7 @@ class TERRAZZO_PT_main(Part, bpy.types.Panel):
         column.operator("terrazzo.make", icon="ADD")
         for i, job in enumerate(jobs.jobs):
             row = layout.row(align=True)
-            row.label(text=job.title, icon="RENDER_ANIMATION")
+            lines(row, job.title, "RENDER_ANIMATION", 25)
             row.operator("terrazzo.cancel", text="", icon="X").index = i
             lines(layout, job.summary)
         row = layout.row(align=True)
@@ -65,7 +66,7 @@ def draw_missing_program(layout):
         program.find(preferences().program)
     except program.ProgramError as e:
         box = layout.box()
-        lines(box, str(e), "ERROR")
+        lines(box, str(e), "ERROR", 10)
         box.prop(preferences(), "program", text="")
 
 
@@ -110,9 +111,9 @@ class TERRAZZO_PT_graph(Part, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.terrazzo
-        row = layout.row(align=True)
-        row.operator("terrazzo.edit", icon="NODETREE")
-        row.operator("terrazzo.watch", icon="HIDE_OFF")
+        column = layout.column(align=True)
+        column.operator("terrazzo.edit", icon="NODETREE")
+        column.operator("terrazzo.watch", icon="HIDE_OFF")
         column = layout.column()
         column.active = settings.use_graph
         row = column.row(align=True)
@@ -126,8 +127,11 @@ class TERRAZZO_PT_graph(Part, bpy.types.Panel):
         for parameter in settings.parameters:
             if parameter.role:
                 continue
+            has_label = parameter.field() in ("text", "path", "choice")
+            if has_label:
+                column.label(text=parameter.name)
             row = column.row(align=True)
-            row.prop(parameter, parameter.field(), text=parameter.name)
+            row.prop(parameter, parameter.field(), text="" if has_label else parameter.name)
             if parameter.kind == "path":
                 row.operator("terrazzo.bake_mask", text="", icon="BRUSH_DATA").parameter = parameter.name
 
@@ -141,7 +145,7 @@ class TERRAZZO_PT_runs(Part, bpy.types.Panel):
             layout.label(text="Nothing has been run yet.")
         for job in jobs.jobs + jobs.history:
             icon = "RENDER_ANIMATION" if job in jobs.jobs else "ERROR" if job.has_failed else "CHECKMARK"
-            layout.label(text=job.title, icon=icon)
+            lines(layout, job.title, icon)
             draw_job(layout, job)
         layout.operator("terrazzo.add_result", icon="FILE_FOLDER")
 
@@ -149,7 +153,7 @@ class TERRAZZO_PT_runs(Part, bpy.types.Panel):
 def draw_job(layout, job):
     lines(layout, job.summary)
     if job.made:
-        layout.label(text=job.made, icon="MATERIAL")
+        lines(layout, job.made, "MATERIAL")
     for error in job.progress.errors[1:]:
         lines(layout, error, "ERROR")
     for warning in job.progress.warnings + job.messages:

@@ -28,10 +28,14 @@ def results_folder():
     return bpy.path.abspath(place)
 
 
+def file_stem(name):
+    return re.sub(r"[^\w.-]+", "_", name).strip("._") or "material"
+
+
 def new_folder(name, root=""):
     """A folder that no other run uses, in the folder of results if no other is given."""
     root = root or results_folder()
-    stem = re.sub(r"[^\w.-]+", "_", name).strip("._") or "material"
+    stem = file_stem(name)
     for number in range(1, 100000):
         folder = os.path.join(root, f"{stem}-{number:02}")
         try:

@@ -53,6 +53,7 @@ def read_graph(settings, _context):
     from . import graphs
     settings.graph_problem = ""
     settings.parameters.clear()
+    settings.use_graph = bool(settings.graph)
     try:
         if settings.graph:
             graphs.read_into(settings)
