@@ -142,6 +142,13 @@ struct NodeOrigin {
   Digest content{};       ///< of the file that holds the code, if known
 };
 
+/// A warning about valid but probably unintended settings.
+struct Lint {
+  std::string message;        ///< starts with the parameter's or port's name in quotes if it is about one
+  std::string answered_by{};  ///< a node type: if such a node reads this one, the warning is withheld
+};
+using Lints = std::vector<Lint>;
+
 /// A node type: its interface and its hooks. Only `compute` is required.
 ///
 /// | hook         | called                                                                    | may read files        |
@@ -186,9 +193,8 @@ struct NodeType {
   /// Throws Error or Errors for what compute would refuse, such as a missing folder. Returns what else is known of the
   /// node's material, or of its first output if it has none, and the files that a sink will write.
   std::function<Forecast(const Params&, const InputForecasts&)> preflight;
-  /// Warnings about valid but probably unintended settings. One message each, starting with the parameter's or port's
-  /// name in quotes if it is about one. Unconnected ports are missing from the forecasts.
-  std::function<std::vector<std::string>(const Params&, const InputForecasts&)> lint;
+  /// Unconnected ports are missing from the forecasts.
+  std::function<Lints(const Params&, const InputForecasts&)> lint;
   NodeOrigin origin{};
 
   const Port* find_input(std::string_view port) const;

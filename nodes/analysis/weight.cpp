@@ -94,10 +94,10 @@ NodeType weight_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute_weight;
   t.lint = [](const Params& params, const InputForecasts&) {
-    std::vector<std::string> out;
+    Lints out;
     for (const auto& [name, weights] : std::get<NumberMap>(params.at("weights")))
       if (std::ranges::all_of(weights, [](double w) { return w == 0; }))
-        out.push_back(fmt::format("\"weights.{0}\": the weight of {0} is 0: nothing in it is looked at", name));
+        out.push_back({fmt::format("\"weights.{0}\": the weight of {0} is 0: nothing in it is looked at", name)});
     return out;
   };
   t.infer = infer_weight;

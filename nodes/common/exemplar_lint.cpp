@@ -12,8 +12,6 @@ namespace terrazzo {
 
 namespace {
 
-constexpr std::string_view light_shows = "light that was baked in shows";
-
 /// Remembered by path, size and time of change: an editor asks after every edit of a graph.
 ExemplarFaults faults_in(const std::filesystem::path& file) {
   struct Known {
@@ -42,33 +40,30 @@ ExemplarFaults faults_in(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool is_about_light(std::string_view message) {
-  return message.find(light_shows) != message.npos;
-}
-
 std::string lone_feature_message(const std::string& subject, const LoneFeature& lone) {
   return fmt::format(
       "{}: the exemplar shows something around ({}, {}) only once; a result repeats it, and the eye finds that. Crop "
-      "it "
-      "off (crop), paint it over (inpaint), or leave it out by a mask",
+      "it off (crop), paint it over (inpaint), or leave it out by a mask",
       subject, lone.x, lone.y);
 }
 
-std::vector<std::string> lint_of_colour(const std::string& subject, const std::filesystem::path& file) {
-  std::vector<std::string> out;
+Lints lint_of_colour(const std::string& subject, const std::filesystem::path& file) {
+  Lints out;
   try {
     const ExemplarFaults found = faults_in(file);
     if (found.is_mostly_one_colour())
-      out.push_back(fmt::format(
+      out.push_back({fmt::format(
           "{}: {:.0f} % of the exemplar are one colour: a background or a border? Crop it (crop), or leave it out by "
           "a mask",
-          subject, 100 * found.one_colour));
+          subject, 100 * found.one_colour)});
     if (found.is_lit_from_a_side())
       out.push_back(
-          fmt::format("{}: the exemplar is {:.0f} % brighter at the {} than at the {}: {} as blotches in a result. The "
-                      "node \"delight\" takes it out; a photograph in flat light is better",
-                      subject, 100 * found.brightening, found.bright_side, found.dark_side, light_shows));
-    if (found.lone.is_seen()) out.push_back(lone_feature_message(subject, found.lone));
+          {.message = fmt::format(
+               "{}: the exemplar is {:.0f} % brighter at the {} than at the {}: light that was baked in shows "
+               "as blotches in a result. The node \"delight\" takes it out; a photograph in flat light is better",
+               subject, 100 * found.brightening, found.bright_side, found.dark_side),
+           .answered_by = "delight"});
+    if (found.lone.is_seen()) out.push_back({lone_feature_message(subject, found.lone)});
   } catch (const Error&) {
     // reading reports it
   }

@@ -2,22 +2,18 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/filter/lone_feature.h"
+#include "core/node/node.h"
 
 namespace terrazzo {
 
 /// For NodeType::lint of nodes that read an exemplar's colours: warns if most of it has one colour, if it is lit
 /// from one side, or if it shows something only once. Each message begins with `subject`. Reads the file and ignores
 /// errors in it.
-std::vector<std::string> lint_of_colour(const std::string& subject, const std::filesystem::path& file);
+Lints lint_of_colour(const std::string& subject, const std::filesystem::path& file);
 
 /// What to say of something that an exemplar shows only once.
 std::string lone_feature_message(const std::string& subject, const LoneFeature& lone);
-
-/// Whether such a warning is about light, which a "delight" node behind takes out.
-bool is_about_light(std::string_view message);
 
 }  // namespace terrazzo

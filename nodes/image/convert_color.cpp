@@ -60,10 +60,10 @@ NodeType convert_color_node() {
   t.lint = [](const Params&, const InputForecasts& inputs) {
     const std::optional<Semantic> semantic = image_at(inputs, "image").semantic;
     return semantic && is_data(*semantic)
-               ? Texts{fmt::format(
+               ? Lints{{fmt::format(
                      "\"image\": a {} map holds {}, not colours; another colour space makes no sense of them",
-                     name_of(*semantic), *semantic == Semantic::normal ? "directions" : "values")}
-               : Texts{};
+                     name_of(*semantic), *semantic == Semantic::normal ? "directions" : "values")}}
+               : Lints{};
   };
   t.infer = [](const Params&, const InputForecasts& inputs) {
     ImageFacts image = image_at(inputs, "image");

@@ -145,7 +145,7 @@ OutputForecasts infer_export_preset(const Params& params, const InputForecasts& 
 }
 
 /// Errors that occur if the material has all its possible maps, such as opacity in alpha.
-Texts lint_of_export_preset(const Params& params, const InputForecasts& inputs) {
+Lints lint_of_export_preset(const Params& params, const InputForecasts& inputs) {
   const auto material = inputs.find("material");
   if (material == inputs.end() || !material->second.front().possible_maps) return {};
   Texts all = material->second.front().maps;
@@ -154,7 +154,7 @@ Texts lint_of_export_preset(const Params& params, const InputForecasts& inputs) 
   try {
     require_written(params, material->second.front(), all);
   } catch (const Error& e) {
-    return {fmt::format("\"{}\": this may be refused once the maps are read: {}", e.about(), e.what())};
+    return {{fmt::format("\"{}\": this may be refused once the maps are read: {}", e.about(), e.what())}};
   }
   return {};
 }

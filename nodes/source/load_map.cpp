@@ -188,7 +188,7 @@ NodeType load_map_node() {
   };
   t.lint = [](const Params& p, const InputForecasts&) {
     const bool is_colour = std::get<std::string>(p.at("semantic")) == "base_color";
-    return is_colour ? lint_of_colour("\"path\"", std::get<std::string>(p.at("path"))) : Texts{};
+    return is_colour ? lint_of_colour("\"path\"", std::get<std::string>(p.at("path"))) : Lints{};
   };
   t.compute = compute_load_map;
   return t;

@@ -171,7 +171,7 @@ Forecast preflight_load_material(const Params& params, const InputForecasts&) {
   return out;
 }
 
-Texts lint_of_load_material(const Params& params, const InputForecasts&) {
+Lints lint_of_load_material(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   for (const RecognisedMap& m : find_maps(params, ignored_notes).maps)
     if (m.semantic == Semantic::base_color && m.channels.empty() && m.layer.empty())

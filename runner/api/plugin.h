@@ -19,7 +19,7 @@
 namespace terrazzo {
 
 /// Raised whenever the memory layout of descriptors, values or contexts changes. Plug-ins must then be recompiled.
-inline constexpr int plugin_abi = 2;
+inline constexpr int plugin_abi = 3;
 
 /// What a plug-in exports. The first two members never move.
 struct PluginInfo {

@@ -13,7 +13,6 @@
 #include "core/image/image_limits.h"
 #include "core/image_io/image_file.h"
 #include "graphs/document/forecasts.h"
-#include "nodes/common/exemplar_lint.h"
 #include "runner/plan/memory_advice.h"
 #include "runner/plan/plan_shapes.h"
 
@@ -271,12 +270,12 @@ std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
 
 namespace {
 
-/// Whether a node that takes out light reads this one.
-bool is_delighted(const Graph& graph, const GraphNode& node) {
+/// Whether a node of a type reads this one.
+bool is_read_by(const Graph& graph, const GraphNode& node, std::string_view type) {
   return std::ranges::any_of(graph.nodes, [&](const GraphNode& reader) {
-    if (reader.type->name != "delight") return false;
-    const auto wires = reader.inputs.find("material");
-    return wires != reader.inputs.end() && wires->second.front().node == node.name;
+    return reader.type->name == type && std::ranges::any_of(reader.inputs, [&](const auto& port) {
+             return std::ranges::any_of(port.second, [&](const auto& wire) { return wire.node == node.name; });
+           });
   });
 }
 
@@ -295,14 +294,14 @@ std::vector<Problem> lint_of(const Graph& graph, const Task& task) {
       continue;  // has been reported as a problem
     }
     if (!node.type->lint) continue;
-    std::vector<std::string> messages;
+    Lints lints;
     try {
-      messages = node.type->lint(node.params, forecasts.inputs_of(node));
+      lints = node.type->lint(node.params, forecasts.inputs_of(node));
     } catch (const Error& e) {
-      messages = {e.what()};
+      lints = {{e.what()}};
     }
-    if (is_delighted(graph, node)) std::erase_if(messages, is_about_light);
-    for (const std::string& message : messages) {
+    for (const auto& [message, answered_by] : lints) {
+      if (is_read_by(graph, node, answered_by)) continue;
       // The place of the quoted parameter or port at the beginning of the message.
       const size_t end = message.find('"', 1);
       const bool is_about = message.starts_with('"') && end != message.npos;

@@ -62,9 +62,7 @@ tz::NodeType odd_node() {
   t.infer = [=](const tz::Params& params, const tz::InputForecasts&) {
     return fails_at(params, "infer"), tz::OutputForecasts();
   };
-  t.lint = [=](const tz::Params& params, const tz::InputForecasts&) {
-    return fails_at(params, "doubts"), std::vector<std::string>();
-  };
+  t.lint = [=](const tz::Params& params, const tz::InputForecasts&) { return fails_at(params, "doubts"), tz::Lints(); };
   t.memory_ahead = [=](const tz::Params& params, const tz::InputForecasts&) {
     return fails_at(params, "memory_ahead"), uint64_t{0};
   };
