@@ -40,10 +40,17 @@ completes 'verify' cache ver
 completes 'stock:inpaint' run stock:inp
 completes 'stock:inpaint' draw stock:inp
 completes 'make_tileable' new --like make_t
+completes 'delight' nodes deli
+completes 'best' synth wall --quality b
 # As bash splits words, at colons.
 completes 'inpaint' run stock : inp
 completes 'magnify\nmake_tileable\nmasked\nmaterial\nmix' run stock : m
 [ "$(COMP_WORDS=(terrazzo run stock :) COMP_CWORD=3; _terrazzo; echo "${#COMPREPLY[@]}")" -gt 10 ] || complain "stock: completes to little"
+# And at =.
+completes 'normal=dxt5nm' synth wall --interpret normal=dx
+completes 'dxt5nm' synth wall --interpret normal = dx
+completes 'xy\ndxt5nm\nas_stored' synth wall --interpret normal =
+completes 'auto' synth wall --method = au
 completes 'wall.json' check wall.json
 
 for shell in zsh fish; do

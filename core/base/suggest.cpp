@@ -1,8 +1,10 @@
 #include "core/base/suggest.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -70,9 +72,10 @@ bool have_other_numbers(std::string_view a, std::string_view b) {
   return std::ranges::any_of(a, is_number) && std::ranges::any_of(b, is_number) && number_in(a) != number_in(b);
 }
 
-/// A phonetic form, for spellings from other languages.
+/// A phonetic form: "delite" is meant as "delight".
 std::string sounds_of(std::string name) {
-  for (size_t at; (at = name.find("ph")) != std::string::npos;) name.replace(at, 2, "f");
+  for (const auto& [spelt, sounds] : {std::pair("ph", "f"), std::pair("ght", "t")})
+    for (size_t at; (at = name.find(spelt)) != std::string::npos;) name.replace(at, std::strlen(spelt), sounds);
   return name;
 }
 

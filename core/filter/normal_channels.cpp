@@ -206,17 +206,11 @@ NormalLayout layout_of_many(const ImagePtr& image, const Image* height, const st
 
 NormalLayout layout_given(const Image& image, const std::vector<std::string>& names, NormalChannels given) {
   const int channels = image.channels();
-  const auto require = [&](bool fits, std::string_view needed) {
-    if (!fits)
-      throw Error(fmt::format("it has {}, and \"{}\" needs {}", counted(channels, "channel"),
-                              normal_channels_names[size_t(given)], needed));
-  };
+  require_channels(given, channels);
   switch (given) {
     case NormalChannels::xyz:
-      require(channels >= 3, "three");
       return {.is_given = true};
     case NormalChannels::xy: {
-      require(channels >= 2, "two");
       const int x = find_channel(names, {"x", "nx"}), y = find_channel(names, {"y", "ny"});
       const bool named = channels == 2 && x >= 0 && y >= 0;
       return {.x = named ? x : 0,
@@ -226,7 +220,6 @@ NormalLayout layout_given(const Image& image, const std::vector<std::string>& na
               .is_given = true};
     }
     case NormalChannels::dxt5nm:
-      require(channels == 2 || channels == 4, "alpha");
       break;
   }
   return {.x = channels - 1,
@@ -269,6 +262,22 @@ class RebuiltNormals : public PixelSource {
 };
 
 }  // namespace
+
+void require_channels(NormalChannels given, int channels) {
+  const auto require = [&](bool fits, std::string_view needed) {
+    if (!fits)
+      throw Error(fmt::format("it has {}, and \"{}\" needs {}", counted(channels, "channel"),
+                              normal_channels_names[size_t(given)], needed));
+  };
+  switch (given) {
+    case NormalChannels::xyz:
+      return require(channels >= 3, "three");
+    case NormalChannels::xy:
+      return require(channels >= 2, "two");
+    case NormalChannels::dxt5nm:
+      return require(channels == 2 || channels == 4, "alpha");
+  }
+}
 
 NormalLayout normal_layout(const ImagePtr& image, const std::vector<std::string>& names, const Image* height,
                            std::optional<NormalChannels> given, const std::string& advice) {

@@ -30,6 +30,9 @@ struct NormalLayout {
   std::string doubt{};    ///< with z: why the third channel may not be z, "its blue ..."
 };
 
+/// Throws Error with a clause beginning with "it" unless a file of so many channels can store normals so.
+void require_channels(NormalChannels given, int channels);
+
 /// Determines the layout from `given`, else from the channels' names and the pixels. `names`: channel names in the
 /// file; empty: unknown. `height`: of the same surface; may be null. Throws Error with a clause beginning with "it" if
 /// the image is no normal map, or does not fit `given`. `advice`: how to specify the layout, for ambiguous images.

@@ -263,13 +263,16 @@ std::vector<std::string> Library::faults_of(const LibraryEntry& entry) {
     }
   }
   if (!entry.picture.empty() && !fs::exists(entry.picture, missing)) out.emplace_back("its picture is missing");
-  if (!entry.material.empty() && !fs::is_directory(entry.material, missing))
-    out.push_back(fmt::format("the folder of its maps does not exist: {}", entry.material.string()));
-  else
-    for (const auto& [name, digest] : entry.files)
-      if (const std::optional<Digest> now = content_digest(entry.material / name); now != digest)
-        out.push_back(fmt::format("{} {} since it was analysed", (entry.material / name).string(),
-                                  now ? "has changed" : "has gone"));
+  const bool is_folder = fs::is_directory(entry.material, missing);
+  if (!entry.material.empty() && !is_folder && !fs::exists(entry.material, missing)) {
+    out.push_back(fmt::format("what was analysed does not exist: {}", entry.material.string()));
+    return out;
+  }
+  for (const auto& [name, digest] : entry.files) {
+    const fs::path file = (is_folder ? entry.material : entry.material.parent_path()) / name;
+    if (const std::optional<Digest> now = content_digest(file); now != digest)
+      out.push_back(fmt::format("{} {} since it was analysed", file.string(), now ? "has changed" : "has gone"));
+  }
   return out;
 }
 

@@ -20,8 +20,8 @@ struct LibraryEntry {
   std::filesystem::path analysis;       ///< the file that load_analysis reads
   Digest content;                       ///< of that file
   std::filesystem::path picture;        ///< empty if there is none
-  std::filesystem::path material;       ///< the folder of the analysed maps; empty if unknown
-  std::map<std::string, Digest> files;  ///< digests of the maps' files at the time of analysis, by name
+  std::filesystem::path material;       ///< the folder of the analysed maps, or the picture; empty if unknown
+  std::map<std::string, Digest> files;  ///< digests of the files at the time of analysis, by name
   std::map<std::string, int> versions;  ///< of the node types that made the analysis
   std::vector<std::string> settings;    ///< settings of the analysis, as for --set
   std::vector<std::string> maps;        ///< the analysed maps

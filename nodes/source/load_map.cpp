@@ -171,8 +171,10 @@ NodeType load_map_node() {
     Forecast out;
     ImageFacts& image = out.images[""];
     image.semantic = semantic_from(std::get<std::string>(p.at("semantic")));
+    int channels = 0;
     try {
       const FileInfo file = read_image_info(path, std::get<std::string>(p.at("layer")));
+      channels = file.channels;
       const bool is_turned = file.orientation >= 5 && interpretation_in(p).as_stored.value_or(false);
       image.size = is_turned ? Size{file.size.height, file.size.width} : file.size;
       if (image.semantic != Semantic::normal || file.channels == 3)
@@ -183,6 +185,12 @@ NodeType load_map_node() {
       throw;
     } catch (const Error&) {
       // compute reports it
+    }
+    if (image.semantic != Semantic::normal || channels == 0) return out;
+    try {
+      if (const auto normals = interpretation_in(p).normal) require_channels(*normals, channels);
+    } catch (const Error& e) {
+      throw Error("interpret", fmt::format("{}: {}", std::filesystem::path(path).filename().string(), e.what()));
     }
     return out;
   };

@@ -143,11 +143,29 @@ std::vector<std::string> check_load_material(const Params& params) {
   return problems;
 }
 
+/// Throws Error if a file of normals has too few channels for how it is to be read.
+void require_interpretable(const Params& params, const RecognisedMap& m) {
+  if (m.semantic != Semantic::normal || !m.interpretation.normal) return;
+  int channels = 0;
+  try {
+    channels = channels_of_map(m, read_image_info(folder_of(params) / m.file, m.layer).channels);
+  } catch (const Error&) {
+    return;  // the file cannot be read, which is reported
+  }
+  try {
+    require_channels(*m.interpretation.normal, channels);
+  } catch (const Error& e) {
+    const bool is_asked = std::get<TextMap>(params.at("interpret")).count(m.map) > 0;
+    throw Error(is_asked ? "interpret" : "path", fmt::format("{}: {}: {}", m.map, m.place(), e.what()));
+  }
+}
+
 Forecast preflight_load_material(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
   std::set<std::string> troubles;
   const FoundMaterial found = find_maps(params, ignored_notes);
+  for (const RecognisedMap& m : found.maps) require_interpretable(params, m);
   if (!found.unnamed.empty())
     for (const Semantic s : packed_semantics) out.possible_maps->emplace_back(name_of(s));
   const std::map<SourcePlace, Size> sizes = sizes_of_sources(folder_of(params), found.maps);
@@ -217,7 +235,8 @@ NodeType load_material_node() {
   t.params = {
       {.name = "path",
        .type = ParamType::path,
-       .help = "The folder of the maps, or \"library:NAME\" for the one that a named analysis was made of.",
+       .help = "The folder of the maps, or a picture, which is the base colour; or \"library:NAME\" for what a named "
+               "analysis was made of.",
        .library = LibraryFile::material},
       {.name = "name",
        .type = ParamType::text,
@@ -272,8 +291,8 @@ NodeType load_material_node() {
   t.files_read = files_read_by_load_material;
   t.memory_hint = [](const NodeContext& node) {
     size_t bytes = 0;
-    for (const std::string& name : image_names(folder_of(node.params()))) try {
-        const FileInfo info = read_image_info(folder_of(node.params()) / name);
+    for (const fs::path& file : files_of_material(node.params())) try {
+        const FileInfo info = read_image_info(file);
         bytes += size_t(info.size.area()) * info.channels * sizeof(float);
       } catch (const Error&) {
         continue;  // compute reports it

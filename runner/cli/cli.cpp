@@ -127,7 +127,6 @@ std::string for_command_line(std::string message, const std::string& folder, con
               folder));
   replace(advice_on_several_materials,
           fmt::format("{0}NAME picks one of them; {0}'*' takes all files as one material", name_option));
-  replace(advice_on_one_file, fmt::format("for a single picture: `terrazzo synth {} -o OUT`", folder));
   return message;
 }
 

@@ -11,11 +11,15 @@ namespace terrazzo {
 
 namespace {
 
+std::vector<std::string> type_names() {
+  std::vector<std::string> out;
+  for (const NodeType& t : node_types()) out.push_back(t.name);
+  return out;
+}
+
 const NodeType& known_type(const std::string& name) {
   if (const NodeType* type = find_node_type(name)) return *type;
-  std::vector<std::string> names;
-  for (const NodeType& t : node_types()) names.push_back(t.name);
-  throw UsageError(fmt::format("there is no node type \"{}\"{}", name, suggestion(name, names)));
+  throw UsageError(fmt::format("there is no node type \"{}\"{}", name, suggestion(name, type_names())));
 }
 
 int show_nodes(const std::string& name, bool json) {
@@ -37,7 +41,7 @@ void add_node_commands(Command& program) {
     bool json = false;
   };
   const auto flags = std::make_shared<Flags>();
-  nodes.add_option("TYPE", &flags->type, "The node type to describe").takes("");
+  nodes.add_option("TYPE", &flags->type, "The node type to describe").takes("").suggests(type_names());
   nodes.add_flag("--json", &flags->json, "For programs: an array of descriptors");
   nodes.footer = "Examples:\n  terrazzo nodes\n  terrazzo nodes synthesize";
   nodes.run = [flags] { return show_nodes(flags->type, flags->json); };

@@ -1,6 +1,7 @@
 // The only file that includes CLI11, whose templates take long to compile.
 #include <map>
 #include <sstream>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
@@ -23,6 +24,14 @@ CLI::Validator one_of(const std::vector<std::string>& choices, bool ignores_case
     return fmt::format("expected {}, found {}{}", fmt::join(choices, ", "), given, did_you_mean(given, choices));
   };
   return CLI::Validator(problem, "{" + CLI::detail::join(choices, ",") + "}");
+}
+
+/// Of an option that was given too often, CLI11 says: "--out: At Most 1 required but received 2".
+std::string in_plain_words(const std::string& message) {
+  constexpr std::string_view too_often = ": At Most 1 required but received ";
+  const size_t at = message.find(too_often);
+  if (at == message.npos) return message;
+  return fmt::format("{}: expected once, found {} times", message.substr(0, at), message.substr(at + too_often.size()));
 }
 
 /// A CLI11 parser built from commands.
@@ -49,7 +58,7 @@ class Parser {
       app_.exit(e, text, text);
       out = {Request::help, nullptr, text.str()};
     } catch (const CLI::ParseError& e) {
-      out = {Request::nothing_known, nullptr, e.what()};
+      out = {Request::nothing_known, nullptr, in_plain_words(e.what())};
     }
     finish(out);
     return out;

@@ -67,12 +67,19 @@ _terrazzo() {
     word=${COMP_WORDS[i]}
     [[ " ${_terrazzo_commands[$path]:-} " == *" $word "* ]] && path="$path $word"
   done
+  # Bash takes = for the end of a word: --option=VALUE, --option NAME=VALUE.
+  local given=
+  [[ $cur == = ]] && i=$((COMP_CWORD - 1)) cur=
+  [[ $prev == = ]] && i=$((COMP_CWORD - 2))
+  if ((i < COMP_CWORD)); then
+    if [[ ${COMP_WORDS[i]} == -* ]]; then prev=${COMP_WORDS[i]}; else given=${COMP_WORDS[i]}= prev=${COMP_WORDS[i-1]}; fi
+  fi
   local values=${_terrazzo_values["$path $prev"]:-} IFS=$' \t\n'
   COMPREPLY=()
   case $values in
     =files) compopt -o filenames 2>/dev/null || true; mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
     =text) return ;;
-    ?*) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$cur"); return ;;
+    ?*) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$given$cur"); COMPREPLY=("${COMPREPLY[@]#"$given"}"); return ;;
   esac
   if [[ $cur == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "${_terrazzo_options[$path]:-}" -- "$cur")
@@ -88,7 +95,7 @@ _terrazzo() {
       COMPREPLY=("${COMPREPLY[@]#"$before"}")
     else
       compopt -o filenames 2>/dev/null || true
-      mapfile -t COMPREPLY < <(compgen -f -- "$cur"; [[ -n $cur ]] && compgen -W "$words" -- "$cur")
+      mapfile -t COMPREPLY < <(compgen -f -- "$cur" || true; [[ -n $cur ]] && compgen -W "$words" -- "$cur")
     fi
   fi
 }

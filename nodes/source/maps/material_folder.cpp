@@ -36,6 +36,11 @@ bool is_no_folder(const fs::directory_entry& entry) {
   return !entry.is_directory(failure);
 }
 
+bool is_picture(const fs::path& path) {
+  std::error_code missing;
+  return looks_like_image(path) && fs::is_regular_file(path, missing);
+}
+
 void require_folder(const fs::path& folder) {
   std::error_code failure;
   const fs::file_status status = fs::status(folder, failure);
@@ -44,13 +49,13 @@ void require_folder(const fs::path& folder) {
     throw Error("path", fmt::format("cannot read the folder {}: {}", folder.string(), failure.message()));
   if (fs::is_directory(status)) return;
   if (fs::exists(status))
-    throw Error("path", fmt::format("expected a folder with the material's maps, found the file {}; {}",
-                                    folder.string(), advice_on_one_file));
+    throw Error("path", fmt::format("expected a folder with the material's maps, or a picture, found the file {}",
+                                    folder.string()));
   std::vector<std::string> siblings;
   for (const fs::directory_entry& e : fs::directory_iterator(folder.parent_path(), failure))
-    if (e.is_directory(failure)) siblings.push_back(e.path().filename().string());
+    if (e.is_directory(failure) || is_picture(e.path())) siblings.push_back(e.path().filename().string());
   std::sort(siblings.begin(), siblings.end());
-  throw Error("path", fmt::format("there is no folder {}{}", folder.string(),
+  throw Error("path", fmt::format("there is no folder or picture {}{}", folder.string(),
                                   did_you_mean(folder.filename().string(), siblings)));
 }
 
@@ -277,6 +282,21 @@ std::vector<fs::path> documents_of_material(const fs::path& folder) {
   return files;
 }
 
+/// The picture that stands in the folder's place, if there is one.
+std::optional<fs::path> picture_of(const Params& params) {
+  const fs::path path = std::get<std::string>(params.at("path"));
+  return is_picture(path) ? std::optional(path) : std::nullopt;
+}
+
+/// The parameters as they would be for the picture's folder: the base colour, unless `maps` names it otherwise.
+Params naming_picture(Params params, const fs::path& picture) {
+  auto& maps = std::get<TextMap>(params.at("maps"));
+  const bool is_named =
+      std::ranges::any_of(maps, [&](const auto& map) { return map.second == picture.filename().string(); });
+  if (!is_named) maps.try_emplace(std::string(name_of(Semantic::base_color)), picture.filename().string());
+  return params;
+}
+
 }  // namespace
 
 std::string words_for_maps() {
@@ -299,7 +319,8 @@ std::string note_on_ignored(const Texts& ignored) {
 }
 
 fs::path folder_of(const Params& params) {
-  return without_trailing_slash(std::get<std::string>(params.at("path")));
+  const fs::path path = without_trailing_slash(std::get<std::string>(params.at("path")));
+  return is_picture(path) ? path.parent_path() : path;
 }
 
 std::vector<std::string> image_names(const fs::path& folder) {
@@ -324,25 +345,31 @@ std::vector<std::string> problems_with_map_names(const Params& params) {
   return problems;
 }
 
-FoundMaterial find_maps(const Params& params, Texts& notes) {
+FoundMaterial find_maps(const Params& given_params, Texts& notes) {
+  const std::optional<fs::path> picture = picture_of(given_params);
+  const Params params = picture ? naming_picture(given_params, *picture) : given_params;
   const fs::path folder = folder_of(params);
   require_folder(folder);
   require_given_maps(params, folder);
   const TextMap& given = std::get<TextMap>(params.at("maps"));
-  FoundMaterial out{.name = folder.filename().string()};
+  FoundMaterial out{.name = (picture ? picture->stem() : folder.filename()).string()};
   std::set<FilePlace> taken;
   for (const auto& [map, text] : given) {
     if (text.empty()) continue;
     const RecognisedMap m = out.maps.emplace_back(given_map(params, map, text));
     if (m.channels.empty()) taken.emplace(m.file, m.layer);
   }
-  const std::vector<MapFile> files = files_to_recognise(params, taken, notes);
-  Texts more_notes = notes_on_folders(folder);
-  for (std::string& n : notes_on_other_formats(folder)) more_notes.push_back(std::move(n));
-  if (const auto sidecar = sidecar_that_counts(params))
-    add_described(*sidecar, files, given, out, more_notes);
-  else
-    add_recognised(params, files, given, out, more_notes);
+  std::vector<MapFile> files;
+  Texts more_notes;
+  if (!picture) {
+    files = files_to_recognise(params, taken, notes);
+    more_notes = notes_on_folders(folder);
+    for (std::string& n : notes_on_other_formats(folder)) more_notes.push_back(std::move(n));
+    if (const auto sidecar = sidecar_that_counts(params))
+      add_described(*sidecar, files, given, out, more_notes);
+    else
+      add_recognised(params, files, given, out, more_notes);
+  }
   std::stable_sort(out.maps.begin(), out.maps.end(),
                    [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
   interpret(params, files, out.maps);
@@ -365,6 +392,7 @@ Texts several_materials(const fs::path& folder) {
 std::vector<fs::path> files_of_material(const Params& params) {
   const fs::path folder = folder_of(params);
   std::vector<fs::path> files;
+  if (const std::optional<fs::path> picture = picture_of(params)) return {*picture};
   for (const std::string& name : image_names(folder)) files.push_back(folder / name);
   for (const auto& [map, text] : std::get<TextMap>(params.at("maps")))
     if (!text.empty() && semantic_of_map(map)) files.push_back(folder / given_map(params, map, text).file);

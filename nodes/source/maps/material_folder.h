@@ -17,8 +17,8 @@ namespace terrazzo {
 inline constexpr std::string_view advice_on_map_names = "the parameter `maps` names files explicitly";
 inline constexpr std::string_view advice_on_several_materials =
     "The parameter `name` picks one of them; `\"name\": \"*\"` takes all files as one material";
-inline constexpr std::string_view advice_on_one_file = "load_map reads a single file";
 
+/// The parameter `path`, or the folder of the picture that it names.
 std::filesystem::path folder_of(const Params& params);
 
 /// The names of a folder's image files, sorted.
@@ -36,9 +36,10 @@ struct FoundMaterial {
   Texts unnamed{};        ///< the ignored images with three channels or more that may belong to the material
 };
 
-/// Finds the maps of the folder: by its sidecar if there is one, else by the files' descriptions and names. Throws
-/// Error about the parameter if the folder or files named in `maps` are missing, if nothing is recognised, or if the
-/// choice between several materials is ambiguous. Adds notes for the user.
+/// Finds the maps of the folder, or takes the picture that stands in its place for the base colour: by its sidecar if
+/// there is one, else by the files' descriptions and names. Throws Error about the parameter if the folder or files
+/// named in `maps` are missing, if nothing is recognised, or if the choice between several materials is ambiguous. Adds
+/// notes for the user.
 FoundMaterial find_maps(const Params& params, Texts& notes);
 
 /// The materials of a folder that holds several, by name; "" for files without one. Empty if it holds one or none.

@@ -243,9 +243,11 @@ void add_library_command(Command& program) {
     return command;
   };
 
-  Command& adding = sub("add", "Analyses a folder of maps, or takes an analysis, and keeps it under a name", add);
+  Command& adding =
+      sub("add", "Analyses a folder of maps or a picture, or takes an analysis, and keeps it under a name", add);
   adding.add_option("NAME", &flags->name, "Its name, such as brick/red").required();
-  adding.add_option("SOURCE", &flags->addition.source, "A folder of maps, or a file that save_analysis wrote")
+  adding
+      .add_option("SOURCE", &flags->addition.source, "A folder of maps, a picture, or a file that save_analysis wrote")
       .required()
       .takes("PATH");
   adding.add_option("--material", &flags->addition.material, "For an analysis file: the folder of the analysed maps")

@@ -57,7 +57,8 @@ GraphError about_arguments(const GraphError& error, const std::vector<Argument>&
       problems.push_back({{}, of->name + " " + of->value, without_subject(p.message)});
     else if (is_source || p.node == "files")
       problems.push_back({{},
-                          is_source                         ? "FOLDER"
+                          p.parameter == "interpret"        ? "--interpret"
+                          : is_source                       ? "FOLDER"
                           : p.parameter.starts_with("maps") ? "--maps"
                                                             : "-o",
                           for_command_line(p.message, arguments.front().value)});
@@ -249,7 +250,8 @@ void add_synth_command(Command& program) {
   synth.add_option("--size", &flags->size, "The size of the result in pixels").takes("WxH").not_with("--scale");
   synth.add_option("--seed", &flags->seed, "Another number gives another arrangement").takes("N");
   synth.add_option("--quality", &flags->quality, "draft, normal or best: draft is quick, best takes its time")
-      .takes("LEVEL");
+      .takes("LEVEL")
+      .suggests({"draft", "normal", "best"});
   synth
       .add_option(
           "--blend", &flags->blend,
@@ -280,11 +282,13 @@ void add_synth_command(Command& program) {
       .one_of(engine_names());
   synth.add_option("--maps", &flags->maps, "Which maps to write, such as normal,height; all of them if not given")
       .takes("NAMES")
+      .suggests({semantic_names.begin(), semantic_names.end()})
       .not_with("--engine");
   synth
       .add_option("--format", &flags->format,
                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
-      .takes("FORMAT");
+      .takes("FORMAT")
+      .suggests({"png", "tif", "exr", "jpg"});
   synth
       .add_option("--set", &flags->set,
                   "Sets a parameter of the stock graph (graphs/material.json or graphs/noise.json) or of one of its "

@@ -65,6 +65,8 @@ void add_exemplar_flags(Command& command, ExemplarFlags& flags) {
                               "channel holds there, as in alpha=height",
                               interpretation_help))
       .takes("MAP=HOW")
+      .suggests({"normal=xy", "normal=dxt5nm", "normal=as_stored", "height=depth", "height=inverted",
+                 "roughness=inverted", "alpha=height", "alpha=opacity"})
       .repeated();
 }
 

@@ -13,6 +13,7 @@
 #include "core/image_io/image_file.h"
 #include "graphs/document/load.h"
 #include "graphs/text/stock_graphs.h"
+#include "nodes/source/maps/material_folder.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/plan/memory_graph.h"
@@ -32,7 +33,7 @@ std::string absolute(const std::string& path) {
   return out;
 }
 
-/// The stock graph that analyses a folder.
+/// The stock graph that analyses a folder or a picture.
 Graph analysing_graph(const LibraryAddition& asked, const fs::path& target) {
   std::vector<Override> set = {override_of("material", asked.source), override_of("out", target.string())};
   for (Override& o : overrides_from(asked.set)) set.push_back(std::move(o));
@@ -94,8 +95,9 @@ std::string today() {
 void add_material(LibraryEntry& entry, const GraphNode& exemplar, const Material& material) {
   entry.material = std::get<std::string>(exemplar.params.at("path"));
   for (const Map& map : material.maps()) entry.maps.push_back(map.name);
+  const fs::path folder = folder_of(exemplar.params);
   for (const fs::path& file : exemplar.type->files_read(exemplar.params)) {
-    const fs::path inside = file.lexically_relative(entry.material);
+    const fs::path inside = file.lexically_relative(folder);
     const std::optional<Digest> content = content_digest(file);
     if (content && !inside.empty() && *inside.begin() != "..") entry.files[inside.generic_string()] = *content;
   }
@@ -105,17 +107,12 @@ void add_material(LibraryEntry& entry, const GraphNode& exemplar, const Material
 
 std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::path& place,
                                        const std::atomic<bool>& cancelled, RunResult& result) {
-  const bool is_folder = fs::is_directory(asked.source);
-  if (std::error_code missing; !is_folder && fs::exists(asked.source, missing) && format_from(asked.source))
-    throw UsageError(
-        fmt::format("SOURCE: {} is a picture, and maps come in a folder: expected that folder, or an "
-                    "analysis that save_analysis wrote; synth and new take a single picture",
-                    asked.source));
-  if (is_folder && !asked.material.empty())
-    throw UsageError("--material needs an analysis; SOURCE already is the folder of the maps");
+  const bool has_pixels = fs::is_directory(asked.source) || looks_like_image(asked.source);
+  if (has_pixels && !asked.material.empty())
+    throw UsageError("--material needs an analysis; SOURCE already holds the maps");
   LibraryEntry entry;
   entry.analysis = place / "new.analysis";
-  Graph graph = is_folder ? analysing_graph(asked, entry.analysis) : copying_graph(asked, entry.analysis);
+  Graph graph = has_pixels ? analysing_graph(asked, entry.analysis) : copying_graph(asked, entry.analysis);
   RunRequest request{.keep = {"index"}, .cancelled = &cancelled};
   const bool has_maps = find_node(graph, "exemplar") != nullptr;
   if (has_maps) {
@@ -123,7 +120,7 @@ std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::p
     for (const char* kept : {"exemplar", "picture"}) request.keep.emplace_back(kept);
   }
   for (const GraphNode& n : graph.nodes)
-    if (is_folder && n.type->category == "analysis") entry.versions[n.type->name] = n.type->version;
+    if (has_pixels && n.type->category == "analysis") entry.versions[n.type->name] = n.type->version;
   result = Session({.use_cache = false}).run(graph, request);
   if (!result.ok()) return std::nullopt;
 
@@ -135,7 +132,7 @@ std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::p
   ImagePtr picture = fingerprint ? picture_of(*fingerprint) : nullptr;
   if (has_maps) {
     const auto material = std::get<MaterialPtr>(result.kept.at("exemplar").at("material"));
-    if (!is_folder && fingerprint && !asked.other_material) require_analysed(*fingerprint, *material, asked.material);
+    if (!has_pixels && fingerprint && !asked.other_material) require_analysed(*fingerprint, *material, asked.material);
     add_material(entry, *find_node(graph, "exemplar"), *material);
     picture = std::get<ImagePtr>(result.kept.at("picture").at("image"));
   }

@@ -147,7 +147,7 @@ TEST_CASE("faults of entries are found") {
   fs::remove(p.path / "maps/height.png");
   CHECK(contains(faults(), "height.png has gone"));
   fs::remove_all(p.path / "maps");
-  CHECK(contains(faults(), "the folder of its maps does not exist"));
+  CHECK(contains(faults(), "what was analysed does not exist"));
   fs::remove(e.picture);
   CHECK(contains(faults(), "its picture is missing"));
   write_text(e.analysis, "damage");

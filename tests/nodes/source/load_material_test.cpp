@@ -234,7 +234,11 @@ TEST_CASE("a folder that gives no material is refused with what was found") {
   write(folder.path() / "bricks" / "photo.png", 3, ramp);
   CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks").string()}}),
                  "it holds photo.png, readme.md"));
-  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks" / "photo.png").string()}}), "load_map"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks" / "readme.md").string()}}),
+                 "expected a folder with the material's maps, or a picture, found the file"));
+  CHECK(run_node("load_material", {{"path", (folder.path() / "bricks" / "photo.png").string()}})
+            .get<Material>("material")
+            ->map_names() == "base_color");
   write(folder.path() / "bricks" / "color.png", 3, ramp);
   CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks").string()}, {"color_space", "srbg"}}),
                  "there is no colour space \"srbg\""));

@@ -36,7 +36,8 @@ TEST_CASE("synth finds its mistakes before it runs, says which argument is wrong
     std::string folder, out, says;
   };
   const std::vector<Wrong> all = {
-      {"mops", "out", "error: FOLDER: there is no folder " + (w.path / "mops").string() + " (did you mean \"maps\"?)"},
+      {"mops", "out",
+       "error: FOLDER: there is no folder or picture " + (w.path / "mops").string() + " (did you mean \"maps\"?)"},
       {"file", "out", "error: FOLDER: cannot read " + (w.path / "file").string()},
       {"nothing", "out", "error: FOLDER: no maps recognised in"},
       {"maps", "file", "error: -o: expected a folder to write to, found the file " + (w.path / "file").string()},

@@ -57,6 +57,19 @@ TEST_CASE("graphs take an analysis, and its maps, from the library by name") {
   CHECK(contains(other.err, "it has been replaced, or the digest is misspelt"));
 }
 
+TEST_CASE("a picture is analysed, and stands for its material") {
+  const Stones w;
+  fs::copy_file(w.path / "bricks/base_color.png", w.path / "shot.png");
+  const ProgramRun added = w.run({"library", "add", "photo", "shot.png"});
+  CHECK_MESSAGE(added.code == 0, added.err);
+  CHECK(w.lay_out("library:photo", "library:photo").code == 0);
+  CHECK(fs::exists(w.path / "out/base_color.png"));
+  CHECK(w.run({"library", "check", "photo"}).code == 0);
+  fs::copy_file(w.path / "gravel/base_color.png", w.path / "shot.png", fs::copy_options::overwrite_existing);
+  const ProgramRun changed = w.run({"library", "check", "photo"});
+  CHECK_MESSAGE(contains(changed.out, "shot.png has changed since it was analysed"), changed.out);
+}
+
 TEST_CASE("an analysis is refused for another material, and for what takes none") {
   const Stones w;
   const ProgramRun run = w.lay_out("library:stone/gravel", "bricks");
@@ -98,7 +111,6 @@ TEST_CASE("library add takes a folder or an analysis, and replaces only by force
   refused({"../other", "bricks"}, "cannot be the name of an entry");
   refused({"other", "nothing-here"}, "SOURCE: cannot read");
   refused({"other", "library"}, "SOURCE: no maps recognised");
-  refused({"other", "photo.png"}, "SOURCE:");
   refused({"other", "bricks", "--set", "weighted.wieghts=2"}, "weights");
   for (const auto& file : fs::directory_iterator(w.path / "library"))  // nothing is left of what failed
     CHECK_FALSE(file.path().filename().string().starts_with("new"));

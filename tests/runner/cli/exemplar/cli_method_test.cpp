@@ -97,7 +97,7 @@ TEST_CASE("a method that there is not, auto without looking, and auto of nothing
   CHECK_MESSAGE(contains(dry.err, "--method auto: it has to look at the exemplar"), dry.err);
   const ProgramRun missing = w.synth("nothing", "x", {"--method", "auto"});
   CHECK(missing.code == 2);
-  CHECK_MESSAGE(contains(missing.err, "error: FOLDER: there is no folder "), missing.err);
+  CHECK_MESSAGE(contains(missing.err, "error: FOLDER: there is no folder or picture "), missing.err);
   CHECK_FALSE(fs::exists(w.path / "x"));
 }
 

@@ -186,14 +186,26 @@ TEST_CASE("new and check tell where an exemplar shows something only once") {
   }
 }
 
-TEST_CASE(
-    "what an engine's files refuse is told by the option that asked for it, and a picture in the library's place") {
+TEST_CASE("what cannot be made is told by the argument that asked for it") {
   const Workplace w;
   write_picture(w.path / "maps/wall_color.png", 5);
   const ProgramRun run = w.run({"synth", "maps", "-o", "out", "--engine", "gltf", "--format", "tga"});
   CHECK(run.code == 2);
   CHECK_MESSAGE(contains(run.err, "error: --format tga: gltf takes png or jpg, found \"tga\""), run.err);
-  const ProgramRun added = w.run({"library", "add", "a", "maps/wall_color.png", "--library", "lib"});
-  CHECK(added.code == 2);
-  CHECK_MESSAGE(contains(added.err, "SOURCE: maps/wall_color.png is a picture"), added.err);
+  write_picture(w.path / "maps/wall_normal.png", 6);
+  const ProgramRun normals = w.run({"synth", "maps", "-o", "out", "--interpret", "normal=dxt5nm"});
+  CHECK(normals.code == 2);
+  CHECK_MESSAGE(contains(normals.err, "error: --interpret: normal: wall_normal.png: it has 3 channels"), normals.err);
+  const ProgramRun misspelt = w.run({"synth", "maps/wall_colour.png", "-o", "out"});
+  CHECK(misspelt.code == 2);
+  CHECK_MESSAGE(contains(misspelt.err, "wall_colour.png (did you mean \"wall_color.png\"?)"), misspelt.err);
+  CHECK(contains(w.run({"synth", "maps", "-o", "a", "-o", "b"}).err, "--out: expected once, found 2 times"));
+}
+
+TEST_CASE("a stock graph for folders takes a picture as well") {
+  const Workplace w;
+  write_picture(w.path / "wall.png", 5);
+  const ProgramRun run = w.run({"run", "stock:material", "--set", "material=wall.png", "--set", "quality=draft"});
+  CHECK_MESSAGE(run.code == 0, run.err);
+  CHECK(std::filesystem::exists(w.path / "out/base_color.png"));
 }

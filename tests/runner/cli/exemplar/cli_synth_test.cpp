@@ -145,7 +145,7 @@ TEST_CASE("synth tells of a missing folder and of a wrong value in one go") {
   const Workplace w;
   const ProgramRun r = w.run({"synth", "missing", "-o", "x", "--quality", "fast"});
   CHECK(r.code == 2);
-  CHECK_MESSAGE(contains(r.err, "error: FOLDER: there is no folder "), r.err);
+  CHECK_MESSAGE(contains(r.err, "error: FOLDER: there is no folder or picture "), r.err);
   CHECK_MESSAGE(contains(r.err, "error: --quality fast: expected \"draft\", \"normal\" or \"best\""), r.err);
 }
 
