@@ -369,6 +369,18 @@ def the_editor_opens_and_the_material_follows():
         count = len(addon("jobs").jobs)
         wait(lambda j: len(addon("jobs").jobs) < count)
     assert editor.summary == "closed" and not editor.has_failed
+    # A copy of a stock graph, which has the source and the fields' values.
+    settings.graph = "stock:material"
+    settings.parameters["seed"].whole, settings.parameters["size"].text = 9, "80x64"
+    start("edit")
+    wait(lambda j: j.progress.is_watching)
+    assert tuple(node(target.active_material, "TEX_IMAGE").image.size) == (80, 64)
+    with open(bpy.path.abspath(settings.graph)) as file:
+        assert re.search(r'"default": "exemplar"', text := file.read()) and re.search(r'"default": 9\b', text), text
+    for _ in range(2):
+        bpy.ops.terrazzo.cancel(index=0)
+        count = len(addon("jobs").jobs)
+        wait(lambda j: len(addon("jobs").jobs) < count)
 
 
 def faces_and_colors_become_masks():

@@ -245,6 +245,9 @@ class Texts(Scratch):
         self.assertEqual(graph_file.presets(self.path("g.json"), document), ["p", "q"])
         self.assertEqual(graph_file.role("out", {"type": "path"}), "out")
         self.assertEqual(graph_file.role("out", {"type": "text"}), "")
+        self.assertEqual([graph_file.typed(v, t) for v, t in (("2", "int"), ("true", "bool"), ("64x32", "size"), ("2", "text"),
+                                                              ([1, 2], "size"), ('{"height": 2}', "number_map"))],
+                         [2, True, "64x32", "2", [1, 2], {"height": 2}])
         for text, says in (("{", "is no graph file"), ("[]", "has no \"terrazzo\"")):
             with open(self.path("g.json"), "w") as file:
                 file.write(text)

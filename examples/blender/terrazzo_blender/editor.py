@@ -4,7 +4,7 @@ import webbrowser
 
 import bpy
 
-from . import graphs, jobs, requests
+from . import command, graphs, jobs, requests
 from .preferences import preferences
 
 
@@ -43,8 +43,9 @@ class Editor(jobs.Job):
 def start(settings, object):
     """Opens the graph, which the panel uses from then on, and watches it."""
     source = requests.Source(settings, object)
-    if not settings.use_graph or settings.graph.startswith(graphs.STOCK):
-        make_graph(settings, object, source)
+    is_own = settings.use_graph and settings.graph
+    if not is_own or settings.graph.startswith(graphs.STOCK):
+        make_graph(settings, object, source, is_own)
     path = graphs.path_of(settings)
     running = next((j for j in jobs.jobs if isinstance(j, Editor) and j.request["graph"] == path), None)
     if running is not None:
@@ -55,18 +56,24 @@ def start(settings, object):
         requests.start_make(settings, object, watch=True)
 
 
-def make_graph(settings, object, source):
+def make_graph(settings, object, source, is_stock):
     """A file of the panel's settings or of a stock graph, in a folder of its own."""
     folder = requests.new_folder(source.title + "-graph")
     path = os.path.join(folder, requests.file_stem(source.title) + ".json")
-    if settings.use_graph:
-        graphs.format_into(settings.graph, path)
+    if is_stock:
+        graph, values, _ = requests.graph_values(settings, source, folder)
     else:
-        values = requests.values_of(settings, object, source, {})[0]
+        graph, values = command.GRAPH, requests.values_of(settings, object, source, {})[0]
         values["material"], _ = source.gather(folder)
-        if not source.folder:
-            values["material"] = os.path.relpath(values["material"], folder)
-        graphs.write_own(values, path)
+        values["out"] = folder
+
+    def named_from_there(value):
+        if value == folder:
+            return "out"
+        is_inside = isinstance(value, str) and value.startswith(folder + os.sep)
+        return os.path.relpath(value, folder) if is_inside else value
+
+    graphs.write_with_defaults(graph, {n: named_from_there(v) for n, v in values.items()}, path)
     settings.use_graph = True
     settings.graph = bpy.path.relpath(path) if bpy.data.filepath else path
 

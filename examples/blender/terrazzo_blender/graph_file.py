@@ -55,6 +55,16 @@ def presets(path, document):
     return names
 
 
+def typed(value, kind):
+    """A field's text as a value of a parameter of this type."""
+    if isinstance(value, str) and kind not in ("text", "path", "choice"):
+        try:
+            return json.loads(value)
+        except ValueError:
+            pass  # an expression, or a size such as 64x32
+    return value
+
+
 def text_of(value):
     """A default as a field shows it, and as --set takes it; expressions stay."""
     if isinstance(value, bool):

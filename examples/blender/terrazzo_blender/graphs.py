@@ -5,7 +5,7 @@ import subprocess
 
 import bpy
 
-from . import command, graph_file, program, settings as panel
+from . import graph_file, program, settings as panel
 from .preferences import preferences
 
 STOCK = "stock:"
@@ -20,12 +20,17 @@ def path_of(settings):
 
 def read_into(settings):
     """Makes fields of the graph's exposed parameters. Raises GraphError or ProgramError."""
-    path = path_of(settings)
-    if path.startswith(STOCK):
-        target = os.path.join(bpy.app.tempdir, path.replace(":", "-") + ".json")
-        format_into(path, target)
-        path = target
+    path = file_of(path_of(settings))
     panel.fill_parameters(settings, graph_file.read(path), path)
+
+
+def file_of(graph):
+    """A graph as a file: a stock graph is written to Blender's folder for temporary files."""
+    if not graph.startswith(STOCK):
+        return graph
+    target = os.path.join(bpy.app.tempdir, graph.replace(":", "-") + ".json")
+    format_into(graph, target)
+    return target
 
 
 def format_into(graph, target):
@@ -39,12 +44,12 @@ def format_into(graph, target):
         raise graph_file.GraphError(asked.stdout.decode("utf-8", "replace").strip())
 
 
-def write_own(values, path):
-    """Writes the graph that the panel runs, with the panel's values as defaults."""
-    with open(command.GRAPH, encoding="utf-8") as file:
-        document = json.load(file)
+def write_with_defaults(graph, values, path):
+    """Writes a graph with values of parameters as their defaults. graph: a file, or stock:NAME."""
+    document = graph_file.read(file_of(graph))
     for name, value in values.items():
-        document["parameters"][name]["default"] = value
+        declaration = document["parameters"][name]
+        declaration["default"] = graph_file.typed(value, declaration.get("type", "text"))
     draft = os.path.join(bpy.app.tempdir, "draft.json")
     with open(draft, "w", encoding="utf-8") as file:
         json.dump(document, file)
