@@ -37,10 +37,12 @@ JSON
 sed 's#deep/{map}.png#float/{map}.exr#; s/uint16/float/' deep.json >float.json
 
 failed=0
-blender --background --factory-startup --python-exit-code 1 --python "$source/tests/addon/in_blender.py" -- \
-  "$scratch/addon.zip" "$program" "$scratch/maps" "$scratch" >log 2>&1 || failed=1
-grep -E "^(ok|WRONG):" log || failed=1
-[ $failed = 0 ] || grep -v '^Fra:' log
+for script in in_blender graphs_in_blender; do
+  blender --background --factory-startup --python-exit-code 1 --python "$source/tests/addon/$script.py" -- \
+    "$scratch/addon.zip" "$program" "$scratch/maps" "$scratch" >log 2>&1 || failed=1
+  grep -E "^(ok|WRONG):" log || failed=1
+  [ $failed = 0 ] || grep -v '^Fra:' log
+done
 
 # The picture: a wall of 3 m with the exemplar twice; a result of twice its pixels covers it once.
 cat >shown.py <<'PY'

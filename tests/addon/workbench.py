@@ -1,4 +1,5 @@
 # What tests of the add-on in Blender share: installing it, waiting for runs, objects, and pictures by Cycles.
+import hashlib
 import importlib
 import os
 import sys
@@ -94,6 +95,23 @@ def old_material(folder, maps=MAPS, repeats=(2, 2), relief=0.02, name="Bricks"):
 def give(target, material):
     target.data.materials.clear()
     target.data.materials.append(material)
+
+
+def wall(maps, **more):
+    """A plane of 3 x 3 m that shows the maps of a folder."""
+    target = plane(3, 3)
+    give(target, old_material(maps, **more))
+    bpy.context.scene.terrazzo.quality = "draft"
+    return target
+
+
+def digests(folder):
+    out = {}
+    for name in sorted(os.listdir(folder)):
+        if os.path.isfile(os.path.join(folder, name)):
+            with open(os.path.join(folder, name), "rb") as file:
+                out[name] = hashlib.sha256(file.read()).hexdigest()
+    return out
 
 
 def node(material, kind):
