@@ -100,19 +100,20 @@ std::string nearest(std::string_view wrong, const std::vector<std::string>& name
   const auto same = std::ranges::find_if(
       names, [&](const std::string& name) { return name != wrong && letters_of(name) == letters; });
   if (same != names.end() && !letters.empty()) return *same;
-  const std::string typed = sounds_of(lowercase(wrong));
+  const std::string typed = lowercase(wrong), sounds = sounds_of(typed);
   std::string best;
   std::optional<size_t> least;
   for (const std::string& name : names) {
     if (name == wrong) continue;
-    const std::optional<size_t> found = mistakes(typed, sounds_of(lowercase(name)));
+    std::optional<size_t> found = mistakes(typed, lowercase(name));
+    if (!found) found = mistakes(sounds, sounds_of(lowercase(name)));
     if (!found || (least && *found >= *least)) continue;
     least = found;
     best = name;
   }
   if (!best.empty()) return best;
   const auto at = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return name != wrong && is_short_form(typed, sounds_of(lowercase(name)));
+    return name != wrong && is_short_form(sounds, sounds_of(lowercase(name)));
   });
   return at == names.end() ? "" : *at;
 }
