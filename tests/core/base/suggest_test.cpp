@@ -12,6 +12,8 @@ TEST_CASE("the nearest name is the one that was most likely meant") {
   CHECK(nearest("laod_map", names) == "load_map");
   CHECK(nearest("boolean", names) == "bool");
   CHECK(nearest("synth", names) == "synthesize");
+  CHECK(nearest("heigth", {"weight", "height"}) == "height");
+  CHECK(nearest("delite", {"blur", "delight"}) == "delight");
 }
 
 TEST_CASE("what joins words, and their case, do not make another name") {
