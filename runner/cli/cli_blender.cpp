@@ -32,7 +32,8 @@ int write_addon(const AddonFlags& flags) {
   for (const AddonFile& file : addon_files()) archive->add(fmt::format("{}/{}", addon_module, file.name), file.text);
   // So that the add-on finds the program without being told.
   std::error_code unknown;
-  archive->add(fmt::format("{}/written_by.txt", addon_module), fs::read_symlink("/proc/self/exe", unknown).string() + "\n");
+  archive->add(fmt::format("{}/written_by.txt", addon_module),
+               fs::read_symlink("/proc/self/exe", unknown).string() + "\n");
   archive->finish();
   print_message("wrote {}; in Blender: Edit > Preferences > Add-ons > Install\n", flags.out);
   return exit_done;

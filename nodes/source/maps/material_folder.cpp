@@ -19,6 +19,7 @@
 #include "nodes/source/maps/interpretations.h"
 #include "nodes/source/maps/material_sidecar.h"
 #include "nodes/source/maps/site_documents.h"
+#include "nodes/source/maps/unread_files.h"
 
 namespace terrazzo {
 
@@ -28,13 +29,6 @@ namespace {
 
 /// A file and one of its layers.
 using FilePlace = std::pair<std::string, std::string>;
-
-/// Includes dangling links, pipes and devices, so that reading them fails: otherwise the material would silently lack a
-/// map.
-bool is_no_folder(const fs::directory_entry& entry) {
-  std::error_code failure;
-  return !entry.is_directory(failure);
-}
 
 bool is_picture(const fs::path& path) {
   std::error_code missing;
@@ -57,38 +51,6 @@ void require_folder(const fs::path& folder) {
   std::sort(siblings.begin(), siblings.end());
   throw Error("path", fmt::format("there is no folder or picture {}{}", folder.string(),
                                   did_you_mean(folder.filename().string(), siblings)));
-}
-
-/// A message about files with map keywords in picture formats that cannot be read.
-Texts notes_on_other_formats(const fs::path& folder) {
-  static const std::set<std::string> unread = {"kra",   "xcf",  "psb", "svg", "clip", "ktx",  "ktx2",
-                                               "basis", "astc", "vtf", "jxl", "heic", "heif", "avif",
-                                               "dng",   "cr2",  "cr3", "nef", "arw"};
-  Texts notes;
-  std::error_code failure;
-  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure)) {
-    const std::string name = e.path().filename().string();
-    const std::string ending = extension_of(name);
-    if (!is_no_folder(e) || name[0] == '.' || !unread.count(ending)) continue;
-    const std::vector<RecognisedMap> maps = recognise_map({.name = name, .size = {}});
-    if (maps.empty() || !reason_to_skip(name).empty()) continue;
-    notes.push_back(fmt::format("{}{} is left out: .{} is not read. If it is to be {}, save it as PNG, TIFF or EXR",
-                                warning_mark, name, ending, maps.front().map));
-  }
-  std::sort(notes.begin(), notes.end());
-  return notes;
-}
-
-/// Files with map keywords but without an image extension.
-std::string maps_of_other_endings(const Texts& present) {
-  std::string out;
-  for (const std::string& name : present) {
-    const bool is_file = !name.ends_with('/') && !looks_like_image(name);
-    if (!is_file || extension_of(name).empty() || recognise_map({.name = name, .size = {}}).empty()) continue;
-    out +=
-        fmt::format("; {} would be a map by its name, but .{} files are not read as images", name, extension_of(name));
-  }
-  return out;
 }
 
 [[noreturn]] void fail_nothing_recognised(const fs::path& folder, const Recognition& recognition) {
