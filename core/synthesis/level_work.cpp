@@ -87,7 +87,8 @@ Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
   Field starts;
   const FixedPixels fixed = shared_.fixed(facts_.level + 1);
   find_candidates({Phase::upsampling});
-  const CorrectionLevel level = correction_level(window, fixed);
+  CorrectionLevel level = correction_level(window, fixed);
+  level.block = 2;
   StepContext c = context(level, starts);
   c.parent = &parent;
   run(Phase::upsampling, c);

@@ -205,27 +205,26 @@ void lay_whole_bricks(StepContext& c) {
   const Appearance& appearance = *c.shared.index.appearance();
   const Coursing coursing = find_coursing(appearance, c.task);
   const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
-  if (!lay_courses(c.field, 2, c.level, appearance, coursing, phase, c.task)) return;
+  if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.task)) return;
   const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
   const int reach = step_tuning->seam_reach_around_bricks;
-  c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,
-                      .stay = step_tuning->stay_around_bricks,
-                      .block = 2};
+  c.seams =
+      SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach, .stay = step_tuning->stay_around_bricks};
 }
 
 void lay_whole_elements(StepContext& c) {
-  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.task);
+  lay_elements(c.field, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.task);
 }
 
 void complete(StepContext& c) {
-  complete_elements(c.field, 2, c.level, *c.shared.index.appearance());
+  complete_elements(c.field, c.level, *c.shared.index.appearance());
 }
 
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 /// brick away. Courses do not tell how long bricks are.
 SeamMoves seams_to_joints(const StepContext& c) {
   const StepTuning& t = *step_tuning;
-  SeamMoves moves{.reach = t.seam_reach_along_courses, .stay = t.stay_along_courses, .block = 2};
+  SeamMoves moves{.reach = t.seam_reach_along_courses, .stay = t.stay_along_courses};
   if (c.facts.level < seam_level) {
     moves.reach = t.seam_reach_to_the_pixel;
     moves.stay = t.stay_to_the_pixel;

@@ -99,6 +99,7 @@ void print_energy(const Step& step, const StepContext& c) {
   Field field = c.field;
   if (step.phase == Phase::upsampling) {  // its pixels are blocks of 2x2
     level.window = PlaneWindow::all_of(c.shared.plane(c.facts.level));
+    level.block = 1;
     field = expanded(c.field.pixels, c.level.window, level.window, level.exemplar);
   }
   const Energy e = energy_of(std::move(field), level, 1 << 16, c.shared.task);

@@ -35,10 +35,9 @@ float distance(const AppearanceVector* a, const AppearanceVector* b) {
 
 }  // namespace
 
-ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, int b, bool edges_hide)
+ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, bool edges_hide)
     : field(f),
       level(l),
-      block(b),
       along_edges(edges_hide),
       node(f.pixels.size(), untouched),
       edge_(float(expansion_tuning->edge)),
@@ -60,8 +59,8 @@ void ExpansionGround::find_edges() {
 }
 
 bool ExpansionGround::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
-  int u = a.x + sides[side][0] * block, v = a.y + sides[side][1] * block;
-  if (block == 1) level.exemplar.settle_inside(u, v);
+  int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
+  if (level.block == 1) level.exemplar.settle_inside(u, v);
   return u == b.x && v == b.y;
 }
 
@@ -71,7 +70,7 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
   const int dx = sides[side][0], dy = sides[side][1];
   const ptrdiff_t step = dy * e.stride() + dx;
   float sum = 0;
-  for (int k = 0; k < block; k++) {
+  for (int k = 0; k < level.block; k++) {
     const AppearanceVector* here = on_side(a, dx, dy, k);
     const AppearanceVector* there = on_side(b, -dx, -dy, k);
     // Distances, not their squares: only for a metric is a minimum cut the best expansion.
@@ -86,10 +85,11 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
 }
 
 uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
-  const int x = level.window.x(pixel % field.size.width) * block, y = level.window.y(pixel / field.size.width) * block;
+  const int x = level.window.x(pixel % field.size.width) * level.block,
+            y = level.window.y(pixel / field.size.width) * level.block;
   uint64_t sum = 0;
-  for (int j = 0; j < block; j++)
-    for (int i = 0; i < block; i++) {
+  for (int j = 0; j < level.block; j++)
+    for (int i = 0; i < level.block; i++) {
       int u = shown.x + i, v = shown.y + j;
       level.exemplar.settle_inside(u, v);
       sum += level.control->cost(u, v, level.control->target_near(x + i, y + j));
@@ -103,8 +103,8 @@ float ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const 
 }
 
 const AppearanceVector* ExpansionGround::on_side(ExemplarPixel p, int dx, int dy, int k) const {
-  int u = p.x + (dx == 0 ? k : dx > 0 ? block - 1 : 0), v = p.y + (dy == 0 ? k : dy > 0 ? block - 1 : 0);
-  if (block > 1) level.exemplar.settle_inside(u, v);
+  int u = p.x + (dx == 0 ? k : dx > 0 ? level.block - 1 : 0), v = p.y + (dy == 0 ? k : dy > 0 ? level.block - 1 : 0);
+  if (level.block > 1) level.exemplar.settle_inside(u, v);
   return level.exemplar.at(u, v);
 }
 
@@ -115,7 +115,7 @@ void Expansion::keep(int pixel) {
 
 bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t pressure) {
   const FixedPixels& fixed = ground_.level.fixed;
-  const ExemplarPixel above{uint16_t(shown.x / ground_.block), uint16_t(shown.y / ground_.block)};
+  const ExemplarPixel above{uint16_t(shown.x / ground_.level.block), uint16_t(shown.y / ground_.level.block)};
   if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
       fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above) || ground_.strays(pixel, shown))
     return false;

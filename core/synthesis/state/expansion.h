@@ -16,7 +16,7 @@ inline constexpr int64_t mismatch_unit = 16;  ///< mismatches are integers, in s
 struct ExpansionGround {
   static constexpr int untouched = -1, kept = -2;
 
-  ExpansionGround(Field& f, const CorrectionLevel& l, int b = 1, bool edges_hide = false);
+  ExpansionGround(Field& f, const CorrectionLevel& l, bool edges_hide = false);
 
   /// How visible the seam is where a pixel shows a and its neighbour on that side (of field.h) shows b: 0 if b
   /// continues a. The exemplar's last pixel is continued by itself.
@@ -29,7 +29,6 @@ struct ExpansionGround {
 
   Field& field;
   const CorrectionLevel& level;
-  int block;         ///< a pixel of the field stands for `block` x `block` pixels of the level
   bool along_edges;  ///< whether edges hide mismatch
   /// The data cost of what each pixel shows, whatever its neighbours show; empty: nothing.
   std::vector<int32_t> pressure{};

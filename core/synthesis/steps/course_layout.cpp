@@ -68,10 +68,10 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
 /// Lays the courses of a result.
 class CourseLayout {
  public:
-  CourseLayout(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-               const Coursing& coursing, const LatticePhase& phase, const Task& task)
+  CourseLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
+               const LatticePhase& phase, const Task& task)
       : field_(field),
-        source_{level.exemplar, block},
+        source_{level.exemplar, level.block},
         appearance_(appearance),
         looks_(appearance.levels()[size_t(coursing.level)]),
         coursing_(coursing),
@@ -247,9 +247,9 @@ class CourseLayout {
 
 }  // namespace
 
-bool lay_courses(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                 const Coursing& coursing, const LatticePhase& phase, const Task& task) {
-  return !coursing.empty() && CourseLayout(field, block, level, appearance, coursing, phase, task).lay();
+bool lay_courses(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
+                 const LatticePhase& phase, const Task& task) {
+  return !coursing.empty() && CourseLayout(field, level, appearance, coursing, phase, task).lay();
 }
 
 }  // namespace terrazzo

@@ -25,8 +25,8 @@ const Tunable<ElementCoresTuning> element_cores_tuning(
 
 }  // namespace
 
-void complete_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance) {
-  const ElementPlaces places(field, block, level, appearance);
+void complete_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance) {
+  const ElementPlaces places(field, level, appearance);
   const ElementShapes& shapes = places.shapes();
   std::vector<ShownElement> shown;
   for (const auto& of_element : places.shown())
@@ -48,7 +48,7 @@ void complete_elements(Field& field, int block, const CorrectionLevel& level, co
         taken[size_t(at)] = 1;
         if (places.is_kept(int(at % field.size.width), int(at / field.size.width))) continue;
         field.pixels[size_t(at)] =
-            places.inside((left + x) * block + s.placed.shift_x, (top + y) * block + s.placed.shift_y);
+            places.inside((left + x) * level.block + s.placed.shift_x, (top + y) * level.block + s.placed.shift_y);
       }
   }
 }

@@ -7,8 +7,7 @@
 namespace terrazzo {
 
 /// Gives every element of a lattice that the field shows for a good part the rest of itself, up to its rim: no tile is
-/// put together from several. Joints stay as they are; seams find their way along them. Kept pixels stay. Each pixel of
-/// the field stands for a block of `block` x `block` pixels of the finest level.
-void complete_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance);
+/// put together from several. Joints stay as they are; seams find their way along them. Kept pixels stay.
+void complete_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance);
 
 }  // namespace terrazzo

@@ -42,13 +42,12 @@ const Tunable<ElementLayoutTuning> element_layout_tuning(
 
 class ElementLayout {
  public:
-  ElementLayout(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                const Lattice* lattice)
+  ElementLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Lattice* lattice)
       : field_(field),
-        block_(block),
+        block_(level.block),
         level_(level),
         lattice_(lattice),
-        places_(field, block, level, appearance, lattice),
+        places_(field, level, appearance, lattice),
         shapes_(places_.shapes()),
         packing_(shapes_, field.size, level.window.closed_x, level.window.closed_y) {}
 
@@ -149,9 +148,9 @@ bool has_elements(const Appearance& appearance) {
   return e && whole_elements(*e, appearance.wraps()) >= element_layout_tuning->fewest;
 }
 
-void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                  const Lattice* lattice, const Task& task) {
-  ElementLayout layout(field, block, level, appearance, lattice);
+void lay_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Lattice* lattice,
+                  const Task& task) {
+  ElementLayout layout(field, level, appearance, lattice);
   layout.lay(task);
 }
 

@@ -33,14 +33,14 @@ struct Count {
 
 }  // namespace
 
-ElementPlaces::ElementPlaces(const Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+ElementPlaces::ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance,
                              const Lattice* courses)
     : field_(field),
-      block_(block),
+      block_(level.block),
       level_(level),
       elements_(*appearance.elements()),
       wraps_(appearance.wraps()),
-      shapes_(element_shapes(elements_, appearance.levels().front().usable, block, wraps_, courses)) {}
+      shapes_(element_shapes(elements_, appearance.levels().front().usable, block_, wraps_, courses)) {}
 
 PlacedElement ElementPlaces::element_at(int column, int row) const {
   const ExemplarPixel& p = field_.at(column, row);

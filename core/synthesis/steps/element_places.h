@@ -18,12 +18,11 @@ struct ShownElement {
   int64_t kept = 0;  ///< of them, those that are kept
 };
 
-/// Which elements a field shows, and where. Each pixel of the field stands for a block of `block` x `block` pixels of
-/// the finest level. Borrows the field, which may change meanwhile, and the level. Thread-safe.
+/// Which elements a field shows, and where. Borrows the field, which may change meanwhile, and the level. Thread-safe.
 class ElementPlaces {
  public:
   /// `courses`: see element_shapes().
-  ElementPlaces(const Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+  ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance,
                 const Lattice* courses = nullptr);
 
   const ElementShapes& shapes() const { return shapes_; }

@@ -81,7 +81,7 @@ class SeamMover {
 
   /// Steps to the exemplar's neighbour on that side, if it has one.
   bool step(ExemplarPixel& p, int side) const {
-    const int block = ground_.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
+    const int block = ground_.level.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
     const PaddedLevel& e = ground_.level.exemplar;
     if (!e.holds(x, y) || !e.holds(x + block - 1, y + block - 1)) return false;
     p = {uint16_t(x), uint16_t(y)};
@@ -109,7 +109,7 @@ std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPix
 }
 
 void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
-  const Pieces pieces(field, moves.block, level.window.closed_x, level.window.closed_y);
+  const Pieces pieces(field, level.block, level.window.closed_x, level.window.closed_y);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
@@ -118,7 +118,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
     if (pieces.area(piece) >= seams_tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
   const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
-  ExpansionGround ground(field, level, moves.block, true);
+  ExpansionGround ground(field, level, true);
   ground.pressure.resize(field.pixels.size());
   for (int piece = 0; piece < pieces.count(); piece++)
     for (const int i : pieces.members(piece)) ground.pressure[size_t(i)] = pressure[size_t(piece)];

@@ -10,8 +10,6 @@ struct SeamMoves {
   /// The cost of a pixel that changes over to a piece, per pixel of distance from that piece, in appearance units. Then
   /// seams go far only to a joint, and to either side alike, so that pieces do not grow by it.
   double stay = 0;
-  /// A pixel of the field stands for `block` x `block` pixels of the level, which continue the exemplar pixel it names.
-  int block = 1;
   /// If above 0, pixels pay for the size of their piece, so that large pieces do not swallow small ones: the full cost
   /// at this many pixels of the field.
   double fair_piece = 0;

@@ -30,7 +30,9 @@ struct Completed {
   explicit Completed(FixedPixels fixed = {}) {
     const AppearancePtr appearance = tiles.index(true)->appearance();
     const PaddedLevel padded(appearance->levels().front(), true);
-    complete_elements(field, block, level_of(padded, field.size, false, std::move(fixed)), *appearance);
+    CorrectionLevel level = level_of(padded, field.size, false, std::move(fixed));
+    level.block = block;
+    complete_elements(field, level, *appearance);
   }
   DrawnTiles tiles{side};
   Field field = torn();

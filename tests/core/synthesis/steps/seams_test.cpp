@@ -143,13 +143,19 @@ int blocks_of_other_tiles(const Field& field) {
   return others;
 }
 
+CorrectionLevel in_blocks(const PaddedLevel& exemplar) {
+  CorrectionLevel level = test::level_of(exemplar);
+  level.block = 2;
+  return level;
+}
+
 }  // namespace
 
 TEST_CASE("seams leave the middles of tiles for their joints") {
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
   REQUIRE(blocks_of_other_tiles(field) > 20);
-  move_seams(field, test::level_of(exemplar), {.reach = 8, .block = 2}, Task());
+  move_seams(field, in_blocks(exemplar), {.reach = 8}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
   // Both pieces are still there, and each goes on as in the exemplar.
   CHECK(Pieces(field, 2).count() == 2);
@@ -159,11 +165,11 @@ TEST_CASE("to be far from its piece costs a pixel: seams go to a joint all the s
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
   const Field before = field;
-  move_seams(field, test::level_of(exemplar), {.reach = 8, .stay = 8, .block = 2}, Task());
+  move_seams(field, in_blocks(exemplar), {.reach = 8, .stay = 8}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
 
   field = before;
-  move_seams(field, test::level_of(exemplar), {.reach = 8, .stay = 4000, .block = 2}, Task());
+  move_seams(field, in_blocks(exemplar), {.reach = 8, .stay = 4000}, Task());
   CHECK(field.pixels == before.pixels);
 }
 
@@ -179,7 +185,7 @@ TEST_CASE("a large piece swallows a small one, unless to be large or far from it
         const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
         field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
       }
-    move_seams(field, test::level_of(plain), {.reach = 8, .stay = stay, .block = 2, .fair_piece = fair}, Task());
+    move_seams(field, in_blocks(plain), {.reach = 8, .stay = stay, .fair_piece = fair}, Task());
     int left = 0;
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;
