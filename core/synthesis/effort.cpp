@@ -1,5 +1,6 @@
 #include "core/base/tuning.h"
 #include "core/synthesis/steps.h"
+#include "core/synthesis/steps/correction_pass.h"
 
 namespace terrazzo {
 

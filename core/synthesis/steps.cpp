@@ -9,6 +9,7 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/state/piece_limits.h"
+#include "core/synthesis/steps/correction.h"
 #include "core/synthesis/steps/course_layout.h"
 #include "core/synthesis/steps/element_cores.h"
 #include "core/synthesis/steps/element_layout.h"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/exemplar/appearance.h"
+#include "core/synthesis/state/comparison_window.h"
 #include "core/synthesis/state/control.h"
 #include "core/synthesis/state/usage_penalty.h"
-#include "core/synthesis/steps/correction.h"
 #include "core/synthesis/steps/seams.h"
 #include "core/synthesis/synthesis_options.h"
 

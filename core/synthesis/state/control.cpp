@@ -1,9 +1,7 @@
 #include "core/synthesis/state/control.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>

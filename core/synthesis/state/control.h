@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "core/analysis/space/padded_level.h"

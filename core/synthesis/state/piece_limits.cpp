@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/base/tuning.h"
+#include "core/synthesis/state/cost_factor.h"
 #include "core/synthesis/state/pieces.h"
-#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/synthesis/state/correction_level.h"
-#include "core/synthesis/state/usage_penalty.h"
+#include "core/synthesis/state/field.h"
 
 namespace terrazzo {
 

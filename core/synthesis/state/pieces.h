@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
 
 namespace terrazzo {
 

@@ -10,7 +10,6 @@
 
 #include <hwy/highway.h>
 
-#include "core/base/hash.h"
 #include "core/synthesis/state/correction_level.h"
 #include "core/synthesis/state/field.h"
 #include "core/synthesis/steps/correction_pass.h"

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "core/base/geometry.h"
-#include "core/exemplar/appearance.h"
 #include "core/synthesis/state/correction_level.h"
 #include "core/synthesis/state/field.h"
 #include "core/synthesis/state/sub_pass.h"

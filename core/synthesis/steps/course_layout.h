@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include "core/analysis/courses/coursing.h"
-#include "core/synthesis/steps/correction.h"
+#include "core/base/task.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
 
 namespace terrazzo {
 

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 
-#include "core/synthesis/steps/correction.h"
+#include "core/base/task.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

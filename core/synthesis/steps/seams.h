@@ -1,6 +1,8 @@
 #pragma once
 
-#include "core/synthesis/steps/correction.h"
+#include "core/base/task.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
 
 namespace terrazzo {
 
