@@ -1,9 +1,9 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/state/lattice_origin.h"
+#include "core/synthesis/state/purpose.h"
 #include "core/synthesis/steps.h"
 #include "core/synthesis/steps/element_layout.h"
-#include "core/synthesis/steps/initialize.h"
 
 namespace terrazzo {
 

@@ -331,7 +331,7 @@ void watch_steps(StepWatcher watch) {
   watcher = std::move(watch);
 }
 
-uint64_t StepContext::bits(uint64_t purpose) const {
+uint64_t StepContext::bits(Purpose purpose) const {
   return random_bits(shared.options.seed, purpose);
 }
 

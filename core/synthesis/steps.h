@@ -10,6 +10,7 @@
 #include "core/exemplar/appearance.h"
 #include "core/synthesis/state/comparison_window.h"
 #include "core/synthesis/state/control.h"
+#include "core/synthesis/state/purpose.h"
 #include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/steps/seams.h"
 #include "core/synthesis/synthesis_options.h"
@@ -135,7 +136,8 @@ struct StepContext {
   std::vector<uint32_t> piece_coherence{};  ///< for this pass, see CorrectionPass
   Task task{};                              ///< of the running step alone
 
-  uint64_t bits(uint64_t purpose) const;
+  /// Random bits, the same on every level and in every pass: steps extend them by those and by the place.
+  uint64_t bits(Purpose purpose) const;
 };
 
 struct Step {

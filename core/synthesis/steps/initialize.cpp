@@ -8,6 +8,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
+#include "core/synthesis/state/purpose.h"
 
 namespace terrazzo {
 

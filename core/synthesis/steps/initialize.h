@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "core/analysis/space/padded_level.h"
@@ -10,9 +11,6 @@
 
 /// The initial field of a level, before correction.
 namespace terrazzo {
-
-/// What a random number is drawn for: different purposes get independent numbers.
-enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3, graphcut_repair = 4, first_cell = 7 };
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, each the best of several random ones: the one
 /// of least cost under a mask and `control`, which may be null, or without these the one that repeats least near by.
