@@ -29,7 +29,7 @@ class LevelWork {
   /// Makes the wanted columns and rows right.
   void correct(Field& field, const PlaneWindow& window, const Rect& wanted);
 
-  /// How far beyond what is wanted of this level a field must reach.
+  /// By how many pixels the field of a part must reach beyond what is wanted of it.
   int reach() const { return reach_of(effort_.passes); }
 
  private:

@@ -117,7 +117,7 @@ LevelFacts SharedWork::facts(int level) const {
           .levels = levels,
           .quality = options.quality,
           .regular = lattice.rank > 0,
-          .kept = fixed(level).any(),
+          .kept = !options.kept.empty(),
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && repeats.parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),

@@ -20,9 +20,6 @@ namespace terrazzo {
 
 namespace {
 
-/// Seams move from the finest level on which pieces still change as wholes down to the one that sees joints best.
-constexpr int seam_level = finest_whole_level;
-
 /// At which levels steps run, and how strongly.
 struct StepTuning {
   double coherence_between_kept = 0.75;
@@ -121,8 +118,7 @@ bool always(const LevelFacts&) {
 
 /// Measured on lattices this breaks more and makes nothing more like the exemplar.
 bool insists_on_evenness(const LevelFacts& f) {
-  return f.places_landmarks() && f.level >= step_tuning->finest_insistent && f.counts_use() && !f.regular &&
-         !f.steered && !f.kept;
+  return f.places_landmarks() && f.level >= step_tuning->finest_insistent && !f.regular && !f.steered && !f.kept;
 }
 
 /// On lattices everything near by is alike, and controls say what belongs where.
@@ -133,7 +129,7 @@ bool avoids_repeats(const LevelFacts& f) {
 /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
 /// other exemplars moving seams brings nothing. Between elements that are laid as wholes there is nothing to move.
 bool moves_seams(const LevelFacts& f) {
-  return f.level <= seam_level && (f.regular || f.kept) && !is_draft(f) &&
+  return f.level <= finest_whole_level && (f.regular || f.kept) && !is_draft(f) &&
          (!f.lays_elements() || f.elements_on_lattice);
 }
 
@@ -141,13 +137,9 @@ bool keeps_pixels(const LevelFacts& f) {
   return f.kept;
 }
 
-bool lays_elements(const LevelFacts& f) {
-  return f.lays_elements();
-}
-
 /// Bricks are laid whole where only seams still move, before they look for the pixel.
 bool lays_courses(const LevelFacts& f) {
-  return f.may_have_bricks && !f.lays_elements() && f.level < seam_level && moves_seams(f) && f.regular && !f.steered &&
+  return f.may_have_bricks && !f.lays_elements() && f.level < finest_whole_level && moves_seams(f) && !f.steered &&
          !f.kept;
 }
 
@@ -222,11 +214,12 @@ void complete(StepContext& c) {
 }
 
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
-/// brick away. Courses do not tell how long bricks are.
+/// brick away. Courses do not tell how long bricks are. Without a lattice, between kept pixels, the limit on pieces is
+/// that with one.
 SeamMoves seams_to_joints(const StepContext& c) {
   const StepTuning& t = *step_tuning;
   SeamMoves moves{.reach = t.seam_reach_along_courses, .stay = t.stay_along_courses};
-  if (c.facts.level < seam_level) {
+  if (c.facts.level < finest_whole_level) {
     moves.reach = t.seam_reach_to_the_pixel;
     moves.stay = t.stay_to_the_pixel;
   } else if (c.shared.lattice.rank > 1) {
@@ -234,7 +227,8 @@ SeamMoves seams_to_joints(const StepContext& c) {
     moves.reach = std::max(t.nearest_joint, std::min(int(half), t.farthest_joint));
     moves.stay = t.stay_by_joint * t.nearest_joint / moves.reach;
   }
-  moves.fair_piece = PieceLimits::of(true).large * double(c.level.exemplar.size().area()) / 4;
+  const double blocks = double(c.level.exemplar.size().area()) / (c.level.block * c.level.block);
+  moves.fair_piece = PieceLimits::of(true).large * blocks;
   return moves;
 }
 
@@ -249,8 +243,13 @@ void repair(StepContext& c) {
     repair_seams(c.field, c.level, c.usage, c.bits(Purpose::graphcut_repair), c.task);
 }
 
+/// The factor on continuing a neighbour's piece.
 double coherence(const StepContext& c) {
-  return coherence_of(c.facts, c.shared.options.coherence);
+  const LevelFacts& f = c.facts;
+  const double asked = c.shared.options.coherence;
+  if (f.kept) return asked * step_tuning->coherence_between_kept;
+  if (f.steered) return asked * step_tuning->coherence_where_steered;
+  return limits_pieces(f) && f.places_landmarks() ? asked * step_tuning->landmark_coherence : asked;
 }
 
 void limit_pieces(StepContext& c) {
@@ -284,8 +283,8 @@ const Step all_steps[] = {
     {"fixed_pixels", Phase::upsampling, "kept pixels get their old content back", keeps_pixels, start_where_kept},
     {"course_layout", Phase::upsampling, "courses are rebuilt from whole bricks and boards", lays_courses,
      lay_whole_bricks},
-    {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes", lays_elements,
-     lay_whole_elements},
+    {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes",
+     [](const LevelFacts& f) { return f.lays_elements(); }, lay_whole_elements},
     {"element_cores", Phase::upsampling, "small tiles and bricks become whole where they lie",
      [](const LevelFacts& f) { return f.completes_elements(); }, complete},
     {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
@@ -314,17 +313,11 @@ bool LevelFacts::counts_use() const {
 
 /// Like courses, where only seams still move. Controls say what goes where.
 bool LevelFacts::lays_elements() const {
-  return has_elements && level < seam_level && quality != Quality::draft && !steered;
+  return has_elements && level < finest_whole_level && quality != Quality::draft && !steered;
 }
 
 bool LevelFacts::completes_elements() const {
-  return small_elements && level < seam_level && quality != Quality::draft && !steered;
-}
-
-double coherence_of(const LevelFacts& f, double coherence) {
-  if (f.kept) return coherence * step_tuning->coherence_between_kept;
-  if (f.steered) return coherence * step_tuning->coherence_where_steered;
-  return limits_pieces(f) && f.places_landmarks() ? coherence * step_tuning->landmark_coherence : coherence;
+  return small_elements && level < finest_whole_level && quality != Quality::draft && !steered;
 }
 
 void watch_steps(StepWatcher watch) {

@@ -16,18 +16,23 @@
 #include "core/synthesis/synthesis_options.h"
 
 /// The synthesis as a list. Every ingredient is a step: a value that says when in the work on a level it runs, where it
-/// applies and what it does. steps.cpp holds the one table of them, in the order in which they run. To add an
-/// ingredient, write it as a file in steps/ and give it a row there.
+/// applies and what it does. steps.cpp holds the one table of them, in the order in which they run. To add one,
+/// write it as a file in steps/, give it a row there, raise synthesis_version, and record tests/golden again; tests ask
+/// for its name in examples/guide/how-synthesis-works.md and for its section in tests/bench/experiments.md.
+///
+/// A step leaves fixed pixels as they are, shows only usable exemplar pixels (PaddedLevel::holds), and stays in phase,
+/// in elements and within the controls where CorrectionLevel has such.
 ///
 /// The finest level may be worked out in parts: its field is then `level.window` of the plane, of which only
-/// `StepContext::wanted` has to be right. What steps of that level read beyond it must be within reach_of().
+/// `StepContext::wanted` has to be right in the end. reach_of() counts what the correction passes read beyond that;
+/// another step before or after a pass of that level must add what it reads.
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
 inline constexpr int synthesis_version = 29;
 
-/// The finest level that is worked out for the plane as a whole: patches are laid, elements too, and seams moved
-/// on every level but the finest.
+/// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
+/// are: there bricks and elements are laid, and seams moved for the last time.
 inline constexpr int finest_whole_level = 1;
 
 /// The size of a level of the output.
@@ -49,14 +54,14 @@ struct LevelFacts {
   int levels = 1;  ///< of the exemplar's pyramid
   Quality quality = Quality::normal;
   bool regular = false;  ///< the exemplar has a lattice
-  bool kept = false;     ///< some of the output's pixels are there already
+  bool kept = false;     ///< some of the output's pixels are given (SynthesisOptions::kept)
   bool steered = false;  ///< controls say what goes where
   /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
   /// or of cells that are worth it.
   bool may_have_bricks = false;
-  bool has_elements = false;         ///< that are laid as wholes
-  bool elements_on_lattice = false;  ///< of rank 2, which they keep to
-  bool small_elements = false;       ///< of a lattice, too small to be laid: they are completed
+  bool has_elements = false;         ///< elements are to be laid as wholes
+  bool elements_on_lattice = false;  ///< they would be laid in the cells of a lattice
+  bool small_elements = false;       ///< they lie in such cells and are too small to be laid: they are completed
 
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
@@ -76,22 +81,19 @@ bool keeps_to_courses(const Lattice& lattice);
 
 /// How much work goes into a level.
 struct Effort {
-  int passes = 1;             ///< of correction
-  int random_candidates = 0;  ///< per pixel and pass
-  const Window* window = nullptr;
+  int passes = 1;                  ///< of correction
+  int random_candidates = 0;       ///< per pixel and pass
+  const Window* window = nullptr;  ///< the pixels that are compared
 };
 
 /// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
 /// pixels is harder than going on freely, and there are fewer pixels to do it for.
 Effort effort_of(const LevelFacts& facts);
 
-/// How far beyond what is wanted of a level a field must reach.
+/// How many pixels beyond what is wanted so many correction passes read.
 int reach_of(int passes);
 
-/// The factor on continuing a neighbour's piece at a level, from the option `coherence`.
-double coherence_of(const LevelFacts& facts, double coherence);
-
-/// What all levels of a synthesis share. What it is made from must outlive it.
+/// What all levels of a synthesis share. What it is made from must outlive it. Thread-safe to read.
 struct SharedWork {
   SharedWork(const Index& index, const SynthesisOptions& options, const Task& task);
 
@@ -114,10 +116,10 @@ struct SharedWork {
   LatticeGaps gaps;  ///< between kept pixels
   Vector2d origin;   ///< where the lattice starts in the result
   ControlPyramid controls;
-  bool whole_elements;       ///< are asked for, and the exemplar has enough of them
-  bool elements_in_grid;     ///< and they lie in phase with cells
-  bool elements_by_lattice;  ///< and they are better laid by their lattice, as bricks or by seams
-  int finest = 0;            ///< the level that ends the work
+  bool whole_elements;       ///< whole elements are asked for, and the exemplar has enough of them
+  bool elements_in_grid;     ///< whole_elements, and they lie in phase with the cells of the lattice
+  bool elements_by_lattice;  ///< whole_elements, but they are better laid by their lattice, as bricks or by seams
+  int finest = 0;            ///< the level that ends the work, for progress
 };
 
 /// What a step works on. Borrows everything; used by one thread.
@@ -125,16 +127,16 @@ struct StepContext {
   const SharedWork& shared;
   const LevelFacts& facts;
   const Effort& effort;
-  const CorrectionLevel& level;  ///< while upsampling, `level.fixed` tells which of the field's blocks are fixed
-  const FixedPixels& fixed;      ///< of the level's own pixels
+  const CorrectionLevel& level;  ///< see CorrectionLevel::block
+  const FixedPixels& fixed;      ///< of the level's own pixels, also while upsampling
   UsagePenalty& usage;
-  Field& field;                             ///< while upsampling, each of its pixels stands for a block of 2x2
+  Field& field;
   const Field* parent = nullptr;            ///< while upsampling: the next coarser level
   int pass = 0;                             ///< of effort.passes
   Rect wanted{};                            ///< the columns and rows that have to be right in the end
   std::optional<SeamMoves> seams{};         ///< how seams move on this level, if a step before has decided it
   std::vector<uint32_t> piece_coherence{};  ///< for this pass, see CorrectionPass
-  Task task{};                              ///< of the running step alone
+  Task task{};  ///< of the running step, whose progress runs from 0 to 1; never report to `shared.task`
 
   /// Random bits, the same on every level and in every pass: steps extend them by those and by the place.
   uint64_t bits(Purpose purpose) const;
@@ -146,7 +148,7 @@ struct Step {
   std::string_view purpose;  ///< one line
   bool (*applies)(const LevelFacts&);
   void (*run)(StepContext&);
-  /// Whether it reads the k-coherent candidates, which are unpacked only for levels that need them.
+  /// Whether it reads CorrectionLevel::similar, which is filled only for levels whose steps do.
   bool reads_candidates = false;
 };
 

@@ -30,6 +30,7 @@ class FixedPixels {
   /// `output`: the finest level's size; `exemplar`: the exemplar's at `level`, 0 = the finest.
   FixedPixels(const ExistingPixels& kept, Size output, int level, Size exemplar);
 
+  /// Whether any of the output's pixels is given, fixed on this level or not.
   bool any() const { return !fixed_.empty(); }
   bool at(size_t pixel) const { return !fixed_.empty() && fixed_[pixel]; }
   /// Whether `shown`, of this level, is what a pixel with Keep::never showed before.
