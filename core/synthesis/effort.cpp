@@ -31,7 +31,7 @@ Effort effort_of(const LevelFacts& f) {
     return {16, f.level >= 3 ? 24 : 8, &full_window()};
   }
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
-  if (f.level == 1) return {f.places_landmarks() ? effort_tuning->small_passes : 2, 0, &full_window()};
+  if (f.level == 1) return {f.is_among_coarsest() ? effort_tuning->small_passes : 2, 0, &full_window()};
   if (f.kept) return {10, f.level >= 3 ? 24 : 8, &full_window()};
   return {7, f.level >= 3 ? 24 : 8, &full_window()};
 }

@@ -60,8 +60,8 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
       fixed_(shared.fixed(level)),
       control_(facts_.steered ? std::make_unique<LevelControl>(shared.controls, level, exemplar_) : nullptr),
       usage_(shared.exemplar(level).size, facts_.counts_use() ? shared.options.evenness : 0,
-             facts_.places_landmarks() && !facts_.small() ? level_work_tuning->least_landmark_factor
-                                                          : level_work_tuning->least_factor,
+             facts_.is_among_coarsest() && !facts_.small() ? level_work_tuning->least_landmark_factor
+                                                           : level_work_tuning->least_factor,
              demand_of(shared.exemplar(level), control_.get())) {
   Field none;
   const CorrectionLevel whole = correction_level(PlaneWindow::all_of(shared_.plane(level)), fixed_);
@@ -75,7 +75,7 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
   steps_ = first_steps_ + effort_.passes * (count(Phase::before_pass) + counts_of(Phase::pass) * count(Phase::pass));
 }
 
-Field LevelWork::beginning() {
+Field LevelWork::coarsest_field() {
   Field field;
   const CorrectionLevel level = correction_level(PlaneWindow::all_of(shared_.plane(facts_.level)), fixed_);
   StepContext c = context(level, field);
@@ -83,7 +83,7 @@ Field LevelWork::beginning() {
   return field;
 }
 
-Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
+Field LevelWork::upsampled_blocks(const Field& parent, const PlaneWindow& window) {
   Field starts;
   const FixedPixels fixed = shared_.fixed(facts_.level + 1);
   find_candidates({Phase::upsampling});
@@ -96,12 +96,11 @@ Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
 }
 
 void LevelWork::count_use(std::span<const ExemplarPixel> starts) {
-  if (facts_.level < level_work_tuning->finest_recounted)
-    usage_.count_for_good(starts, shared_.fixed(facts_.level + 1));
+  if (facts_.level < level_work_tuning->finest_recounted) usage_.freeze_counts(starts, shared_.fixed(facts_.level + 1));
 }
 
-Field LevelWork::begun(std::span<const ExemplarPixel> starts, const PlaneWindow& from,
-                       const PlaneWindow& window) const {
+Field LevelWork::initial_field(std::span<const ExemplarPixel> starts, const PlaneWindow& from,
+                               const PlaneWindow& window) const {
   Field field = expanded(starts, from, window, exemplar_);
   fixed_.apply(field, window);
   return field;

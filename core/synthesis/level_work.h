@@ -14,17 +14,19 @@ class LevelWork {
  public:
   LevelWork(const SharedWork& shared, int level);
 
-  /// What the coarsest level begins with.
-  Field beginning();
+  /// What the coarsest level starts from.
+  Field coarsest_field();
 
-  /// Where the pixels of the next coarser level lead on this one: a field of blocks of 2x2 pixels.
-  Field starts(const Field& parent, const PlaneWindow& window);
+  /// What a field of the next coarser level starts this one from: each of its pixels stands for a block of 2x2 pixels
+  /// and names what the first of them shows.
+  Field upsampled_blocks(const Field& parent, const PlaneWindow& window);
 
-  /// Lets evenness count what the pixels of all the plane's blocks begin with, and no more from then on.
+  /// Counts the use of the exemplar by all the plane's blocks, on fine levels for the last time: parts must not depend
+  /// on one another.
   void count_use(std::span<const ExemplarPixel> starts);
 
-  /// A field of this level, begun with `starts` as far as `from` holds them.
-  Field begun(std::span<const ExemplarPixel> starts, const PlaneWindow& from, const PlaneWindow& window) const;
+  /// The pixels of the blocks in `window`; `from`: the part of the coarser plane that `starts` covers.
+  Field initial_field(std::span<const ExemplarPixel> starts, const PlaneWindow& from, const PlaneWindow& window) const;
 
   /// Makes the wanted columns and rows right.
   void correct(Field& field, const PlaneWindow& window, const Rect& wanted);

@@ -30,7 +30,7 @@ struct StepTuning {
   double stay_by_joint = 4;
   double stay_around_bricks = 1;
   int landmark_levels = 2;
-  int finest_insistent = 2;
+  int finest_controlled = 2;
   int most_levels_of_small = 3;
   int finest_even = 1;
   int finest_limited = 2;
@@ -68,7 +68,7 @@ const Tunable<StepTuning> step_tuning(
          "not measured: only a price of 2 was compared", 0, 10000},
         {&StepTuning::landmark_levels, "landmark_levels", "levels",
          "more: rare features are placed evenly; fewer: fewer of them are broken for it", "usage_penalty"},
-        {&StepTuning::finest_insistent, "finest_insistent", "level",
+        {&StepTuning::finest_controlled, "finest_controlled", "level",
          "lower: the use of exemplars under 64 pixels is evened out where few passes follow, and crumbs stay",
          "small_exemplars"},
         {&StepTuning::most_levels_of_small, "most_levels_of_small", "levels",
@@ -117,12 +117,12 @@ bool always(const LevelFacts&) {
 }
 
 /// Measured on lattices this breaks more and makes nothing more like the exemplar.
-bool insists_on_evenness(const LevelFacts& f) {
-  return f.places_landmarks() && f.level >= step_tuning->finest_insistent && !f.regular && !f.steered && !f.kept;
+bool controls_use(const LevelFacts& f) {
+  return f.is_among_coarsest() && f.level >= step_tuning->finest_controlled && !f.regular && !f.steered && !f.kept;
 }
 
 /// On lattices everything near by is alike, and controls say what belongs where.
-bool avoids_repeats(const LevelFacts& f) {
+bool penalizes_proximity(const LevelFacts& f) {
   return !f.regular && !f.steered;
 }
 
@@ -156,12 +156,12 @@ bool limits_pieces(const LevelFacts& f) {
 
 // What they do.
 
-void insist_on_evenness(StepContext& c) {
-  c.usage.insist();
+void control_use(StepContext& c) {
+  c.usage.enable_integral_control();
 }
 
-void avoid_repeats(StepContext& c) {
-  c.usage.look_around(c.shared.plane(c.facts.level));
+void penalize_proximity(StepContext& c) {
+  c.usage.enable_proximity_penalty(c.shared.plane(c.facts.level));
 }
 
 void place_blocks(StepContext& c) {
@@ -201,8 +201,8 @@ void lay_whole_bricks(StepContext& c) {
   if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.task)) return;
   const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
   const int reach = step_tuning->seam_reach_around_bricks;
-  c.seams =
-      SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach, .stay = step_tuning->stay_around_bricks};
+  c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,
+                      .distance_penalty = step_tuning->stay_around_bricks};
 }
 
 void lay_whole_elements(StepContext& c) {
@@ -218,17 +218,17 @@ void complete(StepContext& c) {
 /// that with one.
 SeamMoves seams_to_joints(const StepContext& c) {
   const StepTuning& t = *step_tuning;
-  SeamMoves moves{.reach = t.seam_reach_along_courses, .stay = t.stay_along_courses};
+  SeamMoves moves{.reach = t.seam_reach_along_courses, .distance_penalty = t.stay_along_courses};
   if (c.facts.level < finest_whole_level) {
     moves.reach = t.seam_reach_to_the_pixel;
-    moves.stay = t.stay_to_the_pixel;
+    moves.distance_penalty = t.stay_to_the_pixel;
   } else if (c.shared.lattice.rank > 1) {
     const double half = c.shared.lattice.longest_step() / 2 / double(int64_t{2} << c.facts.level);
     moves.reach = std::max(t.nearest_joint, std::min(int(half), t.farthest_joint));
-    moves.stay = t.stay_by_joint * t.nearest_joint / moves.reach;
+    moves.distance_penalty = t.stay_by_joint * t.nearest_joint / moves.reach;
   }
   const double blocks = double(c.level.exemplar.size().area()) / (c.level.block * c.level.block);
-  moves.fair_piece = PieceLimits::of(true).large * blocks;
+  moves.target_area = PieceLimits::of(true).large * blocks;
   return moves;
 }
 
@@ -249,7 +249,7 @@ double coherence(const StepContext& c) {
   const double asked = c.shared.options.coherence;
   if (f.kept) return asked * step_tuning->coherence_between_kept;
   if (f.steered) return asked * step_tuning->coherence_where_steered;
-  return limits_pieces(f) && f.places_landmarks() ? asked * step_tuning->landmark_coherence : asked;
+  return limits_pieces(f) && f.is_among_coarsest() ? asked * step_tuning->landmark_coherence : asked;
 }
 
 void limit_pieces(StepContext& c) {
@@ -272,9 +272,9 @@ StepWatcher watcher;  // see watch_steps()
 constexpr bool with_candidates = true;
 
 const Step all_steps[] = {
-    {"usage_penalty", Phase::costs, "over-used parts of the exemplar cost more and more", insists_on_evenness,
-     insist_on_evenness},
-    {"proximity_penalty", Phase::costs, "parts that already appear nearby cost more", avoids_repeats, avoid_repeats},
+    {"usage_penalty", Phase::costs, "over-used parts of the exemplar cost more and more", controls_use, control_use},
+    {"proximity_penalty", Phase::costs, "parts that already appear nearby cost more", penalizes_proximity,
+     penalize_proximity},
     {"initialize", Phase::coarsest, "random blocks of the exemplar", always, place_blocks},
     {"jitter", Phase::coarsest, "pixels move at random", always, jitter_coarsest},
     {"fixed_pixels", Phase::coarsest, "kept pixels get their old content back", keeps_pixels, begin_with_kept},
@@ -298,7 +298,7 @@ const Step all_steps[] = {
 
 }  // namespace
 
-bool LevelFacts::places_landmarks() const {
+bool LevelFacts::is_among_coarsest() const {
   return levels - 1 - level < step_tuning->landmark_levels;
 }
 

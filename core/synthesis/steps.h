@@ -65,7 +65,7 @@ struct LevelFacts {
 
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
-  bool places_landmarks() const;
+  bool is_among_coarsest() const;
   /// Whether few levels follow on those where rare features are won or lost: exemplars under 128 pixels.
   bool small() const;
   /// Whether how evenly the exemplar is used counts on this level.

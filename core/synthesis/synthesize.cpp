@@ -45,17 +45,17 @@ void show_level(const SharedWork& s, int level, const Field& field) {
 Field coarse_field(const SharedWork& s) {
   const int coarsest = s.levels - 1, last = coarse_level(s);
   auto work = std::make_unique<LevelWork>(s, coarsest);
-  Field field = work->beginning();
+  Field field = work->coarsest_field();
   for (int l = coarsest;; l--) {
     const PlaneWindow all = PlaneWindow::all_of(s.plane(l));
     work->correct(field, all, all.part);
     show_level(s, l, field);
     if (l == 0) return field;
     work = std::make_unique<LevelWork>(s, l - 1);
-    field = work->starts(field, all);
+    field = work->upsampled_blocks(field, all);
     if (l == last) return field;
     work->count_use(field.pixels);
-    field = work->begun(field.pixels, all, PlaneWindow::all_of(s.plane(l - 1)));
+    field = work->initial_field(field.pixels, all, PlaneWindow::all_of(s.plane(l - 1)));
   }
 }
 
@@ -75,7 +75,7 @@ Field refined_field(const SharedWork& s, std::span<const ExemplarPixel> coarse, 
   LevelWork work(s, 0);
   const PlaneWindow window = PlaneWindow::around(region, work.reach(), s.plane(0));
   work.count_use(coarse);
-  Field field = work.begun(coarse, blocks, window);
+  Field field = work.initial_field(coarse, blocks, window);
   work.correct(field, window, window.held(region));
   return cropped(std::move(field), window, region);
 }

@@ -19,7 +19,7 @@ constexpr int32_t usual = WindowCoherence::usual;
 class PixelEnergy {
  public:
   PixelEnergy(Field& field, const CorrectionLevel& level)
-      : field_(field), level_(level), windows_(level), ground_(field, level) {}
+      : field_(field), level_(level), windows_(level), problem_(field, level) {}
 
   void add(int x, int y, Energy& sum) const {
     sum.pixels++;
@@ -32,7 +32,7 @@ class PixelEnergy {
     }
     for (int side = 0; side < 2; side++)
       if (const int64_t beside = index(x + sides[side][0], y + sides[side][1]); beside >= 0) {
-        const int64_t mismatch = ground_.mismatch(here, field_.pixels[size_t(beside)], side);
+        const int64_t mismatch = problem_.mismatch(here, field_.pixels[size_t(beside)], side);
         sum.seams += mismatch;
         sum.cut += mismatch > 0 ? 1 : 0;
       }
@@ -56,7 +56,7 @@ class PixelEnergy {
   const Field& field_;
   const CorrectionLevel& level_;
   WindowCoherence windows_;
-  ExpansionGround ground_;
+  ExpansionProblem problem_;
 };
 
 }  // namespace

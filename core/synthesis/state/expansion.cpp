@@ -35,7 +35,7 @@ float distance(const AppearanceVector* a, const AppearanceVector* b) {
 
 }  // namespace
 
-ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, bool edges_hide)
+ExpansionProblem::ExpansionProblem(Field& f, const CorrectionLevel& l, bool edges_hide)
     : field(f),
       level(l),
       along_edges(edges_hide),
@@ -45,7 +45,7 @@ ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, bool edges_
   if (along_edges) find_edges();
 }
 
-void ExpansionGround::find_edges() {
+void ExpansionProblem::find_edges() {
   const PaddedLevel& e = level.exemplar;
   const AppearanceVector* first = e.at(-1, -1);
   for (std::vector<float>& edges : edges_) edges.resize(size_t(e.at(e.size().width, e.size().height) - first) + 1);
@@ -58,13 +58,13 @@ void ExpansionGround::find_edges() {
   });
 }
 
-bool ExpansionGround::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
+bool ExpansionProblem::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
   int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
   if (level.block == 1) level.exemplar.settle_inside(u, v);
   return u == b.x && v == b.y;
 }
 
-int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) const {
+int64_t ExpansionProblem::mismatch(ExemplarPixel a, ExemplarPixel b, int side) const {
   if (continues(a, b, side)) return 0;
   const PaddedLevel& e = level.exemplar;
   const int dx = sides[side][0], dy = sides[side][1];
@@ -84,7 +84,7 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
   return int64_t(sum * float(mismatch_unit));
 }
 
-uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
+uint64_t ExpansionProblem::control_cost(int pixel, ExemplarPixel shown) const {
   const int x = level.window.x(pixel % field.size.width) * level.block,
             y = level.window.y(pixel / field.size.width) * level.block;
   uint64_t sum = 0;
@@ -97,30 +97,30 @@ uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
   return sum;
 }
 
-float ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
+float ExpansionProblem::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
   const bool along_row = std::abs(step) == 1;
   return edges_[along_row ? 0 : 1][size_t((step < 0 ? v + step : v) - level.exemplar.at(-1, -1))];
 }
 
-const AppearanceVector* ExpansionGround::on_side(ExemplarPixel p, int dx, int dy, int k) const {
+const AppearanceVector* ExpansionProblem::on_side(ExemplarPixel p, int dx, int dy, int k) const {
   int u = p.x + (dx == 0 ? k : dx > 0 ? level.block - 1 : 0), v = p.y + (dy == 0 ? k : dy > 0 ? level.block - 1 : 0);
   if (level.block > 1) level.exemplar.settle_inside(u, v);
   return level.exemplar.at(u, v);
 }
 
 void Expansion::keep(int pixel) {
-  ground_.node[size_t(pixel)] = ExpansionGround::kept;
+  problem_.node[size_t(pixel)] = ExpansionProblem::kept;
   kept_.push_back(pixel);
 }
 
-bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t pressure) {
-  const FixedPixels& fixed = ground_.level.fixed;
-  const ExemplarPixel above{uint16_t(shown.x / ground_.level.block), uint16_t(shown.y / ground_.level.block)};
-  if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
-      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above) || ground_.strays(pixel, shown))
+bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t unary_cost) {
+  const FixedPixels& fixed = problem_.level.fixed;
+  const ExemplarPixel above{uint16_t(shown.x / problem_.level.block), uint16_t(shown.y / problem_.level.block)};
+  if (problem_.node[size_t(pixel)] != ExpansionProblem::untouched || problem_.field.pixels[size_t(pixel)] == shown ||
+      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above) || problem_.raises_control_cost(pixel, shown))
     return false;
-  ground_.node[size_t(pixel)] = int(free_.size());
-  free_.push_back({pixel, shown, pressure});
+  problem_.node[size_t(pixel)] = int(free_.size());
+  free_.push_back({pixel, shown, unary_cost});
   return true;
 }
 
@@ -130,32 +130,32 @@ void Expansion::apply() {
   cut_.solve();
   for (size_t n = 0; n < free_.size(); n++) {
     if (cut_.on_source_side(int(n))) {
-      ground_.field.pixels[free_[n].pixel] = free_[n].offered;
-      if (!ground_.pressure.empty()) ground_.pressure[free_[n].pixel] = free_[n].pressure;
+      problem_.field.pixels[free_[n].pixel] = free_[n].offered;
+      if (!problem_.unary_cost.empty()) problem_.unary_cost[free_[n].pixel] = free_[n].unary_cost;
     }
-    ground_.node[free_[n].pixel] = ExpansionGround::untouched;
+    problem_.node[free_[n].pixel] = ExpansionProblem::untouched;
   }
-  for (const int i : kept_) ground_.node[size_t(i)] = ExpansionGround::untouched;
+  for (const int i : kept_) problem_.node[size_t(i)] = ExpansionProblem::untouched;
   free_.clear();
   kept_.clear();
 }
 
 void Expansion::connect(int n) {
   const Free& f = free_[size_t(n)];
-  const ExemplarPixel kept = ground_.field.pixels[f.pixel];
-  const PlaneWindow& window = ground_.level.window;
-  if (!ground_.pressure.empty()) cut_.prefer_source(n, ground_.pressure[f.pixel] - f.pressure);
+  const ExemplarPixel kept = problem_.field.pixels[f.pixel];
+  const PlaneWindow& window = problem_.level.window;
+  if (!problem_.unary_cost.empty()) cut_.prefer_source(n, problem_.unary_cost[f.pixel] - f.unary_cost);
   for (int side = 0; side < 4; side++) {
-    const int64_t m = pixel_beside(ground_.field.size, f.pixel, side, window.closed_x, window.closed_y);
+    const int64_t m = pixel_beside(problem_.field.size, f.pixel, side, window.closed_x, window.closed_y);
     if (m < 0) continue;
-    const ExemplarPixel other = ground_.field.pixels[size_t(m)];
-    const int node = ground_.node[size_t(m)];
+    const ExemplarPixel other = problem_.field.pixels[size_t(m)];
+    const int node = problem_.node[size_t(m)];
     if (node < 0) {
-      cut_.prefer_source(n, ground_.mismatch(kept, other, side) - ground_.mismatch(f.offered, other, side));
+      cut_.prefer_source(n, problem_.mismatch(kept, other, side) - problem_.mismatch(f.offered, other, side));
     } else if (side < 2) {  // both are free: each pair once
       const ExemplarPixel offered = free_[size_t(node)].offered;
-      const int64_t neither = ground_.mismatch(kept, other, side), first = ground_.mismatch(f.offered, other, side),
-                    second = ground_.mismatch(kept, offered, side), both = ground_.mismatch(f.offered, offered, side);
+      const int64_t neither = problem_.mismatch(kept, other, side), first = problem_.mismatch(f.offered, other, side),
+                    second = problem_.mismatch(kept, offered, side), both = problem_.mismatch(f.offered, offered, side);
       cut_.prefer_source(n, neither - first);
       cut_.prefer_source(node, first - both);
       cut_.join(n, side, node, 0);

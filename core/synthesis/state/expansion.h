@@ -12,26 +12,26 @@ namespace terrazzo {
 
 inline constexpr int64_t mismatch_unit = 16;  ///< mismatches are integers, in so many parts of an appearance unit
 
-/// What all expansions on one field share. Expansions whose pixels do not meet can work at the same time.
-struct ExpansionGround {
-  static constexpr int untouched = -1, kept = -2;
+/// What all expansions on one field share. Expansions whose pixels do not meet may work on it at the same time.
+struct ExpansionProblem {
+  static constexpr int untouched = -1, kept = -2;  ///< in `node`
 
-  ExpansionGround(Field& f, const CorrectionLevel& l, bool edges_hide = false);
+  ExpansionProblem(Field& f, const CorrectionLevel& l, bool edges_hide = false);
 
   /// How visible the seam is where a pixel shows a and its neighbour on that side (of field.h) shows b: 0 if b
   /// continues a. The exemplar's last pixel is continued by itself.
   int64_t mismatch(ExemplarPixel a, ExemplarPixel b, int side) const;
 
   /// Whether showing an exemplar pixel costs more under the controls than what a pixel shows.
-  bool strays(int pixel, ExemplarPixel offered) const {
+  bool raises_control_cost(int pixel, ExemplarPixel offered) const {
     return level.control != nullptr && control_cost(pixel, offered) > control_cost(pixel, field.pixels[size_t(pixel)]);
   }
 
   Field& field;
   const CorrectionLevel& level;
   bool along_edges;  ///< whether edges hide mismatch
-  /// The data cost of what each pixel shows, whatever its neighbours show; empty: nothing.
-  std::vector<int32_t> pressure{};
+  /// What it costs each pixel to show what it shows, whatever its neighbours show; empty: nothing.
+  std::vector<int32_t> unary_cost{};
   std::vector<int> node;  ///< of each pixel in its expansion's graph
 
  private:
@@ -53,13 +53,13 @@ struct ExpansionGround {
 /// Not thread-safe.
 class Expansion {
  public:
-  explicit Expansion(ExpansionGround& ground) : ground_(ground) {}
+  explicit Expansion(ExpansionProblem& problem) : problem_(problem) {}
 
   /// Excludes a pixel from the move.
   void keep(int pixel);
-  /// Offers a pixel something else to show, at that data cost. False if it has an offer already, is excluded or fixed,
-  /// or must not show that.
-  bool offer(int pixel, ExemplarPixel shown, int32_t pressure = 0);
+  /// Offers a pixel something else to show, at that unary cost in parts of an appearance unit. False if it has an offer
+  /// already, is excluded or fixed, or must not show that.
+  bool offer(int pixel, ExemplarPixel shown, int32_t unary_cost = 0);
   /// Makes the move and forgets what was offered.
   void apply();
 
@@ -67,11 +67,11 @@ class Expansion {
   struct Free {
     int pixel;
     ExemplarPixel offered;
-    int32_t pressure;
+    int32_t unary_cost;
   };
   void connect(int n);
 
-  ExpansionGround& ground_;
+  ExpansionProblem& problem_;
   std::vector<Free> free_;
   std::vector<int> kept_;
   GridCut cut_;

@@ -48,8 +48,8 @@ int row(uint32_t place) {
 
 }  // namespace
 
-Patches::Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed)
-    : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
+Patches::Patches(ExpansionProblem& problem, const UsagePenalty& usage, uint64_t seed)
+    : problem_(problem), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(problem) {}
 
 int Patches::near() {
   return patches_tuning->near;
@@ -72,7 +72,7 @@ std::optional<uint32_t> Patches::best(int x, int y) {
   shown_.clear();
   for (const Offset& o : rim_) {
     const ExemplarPixel p = pixel(x + o.x, y + o.y);
-    shown_.push_back(ground_.level.exemplar.at(p.x, p.y));
+    shown_.push_back(problem_.level.exemplar.at(p.x, p.y));
   }
   collect_places(x, y);
   std::optional<uint32_t> best;
@@ -90,18 +90,18 @@ void Patches::lay(int x, int y, uint32_t place) {
   for (int dy = -half; dy <= half; dy++)
     for (int dx = -half; dx <= half; dx++) {
       const int u = column(place) + dx, v = row(place) + dy;
-      if (ground_.level.exemplar.is_usable(u, v))
+      if (problem_.level.exemplar.is_usable(u, v))
         expansion_.offer(int(index(x + dx, y + dy)), {uint16_t(u), uint16_t(v)});
     }
   expansion_.apply();
 }
 
 int64_t Patches::index(int x, int y) const {
-  return pixel_index(ground_.field.size, x, y, ground_.level.window.closed_x, ground_.level.window.closed_y);
+  return pixel_index(problem_.field.size, x, y, problem_.level.window.closed_x, problem_.level.window.closed_y);
 }
 
 void Patches::collect_places(int x, int y) {
-  const CorrectionLevel& level = ground_.level;
+  const CorrectionLevel& level = problem_.level;
   places_.clear();
   for (size_t i = 0; i < rim_.size(); i += size_t(patches_tuning->rim_stride)) {
     const Offset& o = rim_[i];
@@ -122,16 +122,16 @@ void Patches::collect_places(int x, int y) {
 
 /// Adds a candidate unless its patch would leave the exemplar or be out of phase.
 void Patches::add_place(int x, int y, int u, int v) {
-  const PaddedLevel& e = ground_.level.exemplar;
+  const PaddedLevel& e = problem_.level.exemplar;
   const int least = half + e.keep_off();
   if (u < least || v < least || u >= e.size().width - least || v >= e.size().height - least) return;
-  if (ground_.level.phase.active() && ground_.level.phase.penalty(u, v, x, y) > 1) return;
+  if (problem_.level.phase.active() && problem_.level.phase.penalty(u, v, x, y) > 1) return;
   places_.add(packed(u, v));
 }
 
 /// The distance between the patch's rim and the window's, times the place's usage penalty; stops beyond the limit.
 int64_t Patches::misfit_at(uint32_t place, int64_t limit) const {
-  const PaddedLevel& e = ground_.level.exemplar;
+  const PaddedLevel& e = problem_.level.exemplar;
   const AppearanceVector* middle = e.at(column(place), row(place));
   const int64_t factor = usage_.factor(column(place), row(place));
   int64_t sum = 0;
@@ -148,7 +148,7 @@ bool Patches::shows_near(int x, int y, uint32_t place) const {
       if (std::max(std::abs(dx), std::abs(dy)) <= half) continue;
       const int64_t i = index(x + dx, y + dy);
       if (i < 0) continue;
-      const ExemplarPixel p = ground_.field.pixels[size_t(i)];
+      const ExemplarPixel p = problem_.field.pixels[size_t(i)];
       const int u = p.x - column(place), v = p.y - row(place);
       if (u == dx && v == dy) continue;
       if (std::max(std::abs(u), std::abs(v)) <= core) return true;

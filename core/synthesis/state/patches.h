@@ -22,7 +22,7 @@ class Patches {
   static int near();
 
   /// `usage`: over-used patches fit less well.
-  Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed);
+  Patches(ExpansionProblem& problem, const UsagePenalty& usage, uint64_t seed);
 
   /// The place whose patch fits a window's rim best; none if there is no candidate. Candidates come from the rim's
   /// pixels, their k-coherent candidates and chance; none shows near by already or is out of phase.
@@ -37,13 +37,13 @@ class Patches {
   };
   static std::vector<Offset> scattered_rim();
   int64_t index(int x, int y) const;
-  ExemplarPixel pixel(int x, int y) const { return ground_.field.pixels[size_t(index(x, y))]; }
+  ExemplarPixel pixel(int x, int y) const { return problem_.field.pixels[size_t(index(x, y))]; }
   void collect_places(int x, int y);
   void add_place(int x, int y, int u, int v);
   int64_t misfit_at(uint32_t place, int64_t limit) const;
   bool shows_near(int x, int y, uint32_t place) const;
 
-  ExpansionGround& ground_;
+  ExpansionProblem& problem_;
   const UsagePenalty& usage_;
   uint64_t seed_;
   std::vector<Offset> rim_;

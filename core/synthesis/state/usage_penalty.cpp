@@ -57,24 +57,24 @@ UsagePenalty::UsagePenalty(Size exemplar, double weight, double least_factor, co
     shares_[cells_.of(int(i) % exemplar.width, int(i) / exemplar.width)] += demand[i] / sum;
 }
 
-void UsagePenalty::insist() {
+void UsagePenalty::enable_integral_control() {
   if (active()) prices_.assign(factors_.size(), 1.0);
 }
 
-void UsagePenalty::look_around(const Plane& plane) {
+void UsagePenalty::enable_proximity_penalty(const Plane& plane) {
   if (active() && ProximityPenalty::is_worth_it(exemplar_, cells_, plane))
     nearby_.emplace(exemplar_, areas_, weight_, plane);
 }
 
 void UsagePenalty::recount(const Field& field, const FixedPixels& fixed) {
-  if (settled_) return;
+  if (frozen_) return;
   count(field.pixels, fixed);
   if (nearby_) nearby_->count(field, cells_);
 }
 
-void UsagePenalty::count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
+void UsagePenalty::freeze_counts(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
   count(pixels, fixed);
-  settled_ = true;
+  frozen_ = true;
   nearby_.reset();
 }
 

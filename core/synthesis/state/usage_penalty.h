@@ -13,7 +13,8 @@
 namespace terrazzo {
 
 /// A factor on the cost of using each cell of the exemplar (ExemplarCells) once more: above 1 for cells that show more
-/// than an even share, and more than once as a whole; below 1 for cells that show less than their share.
+/// than an even share, and more than once as a whole; below 1 for cells that show less than their share. Any number of
+/// threads may read while none counts.
 class UsagePenalty {
  public:
   /// `weight`: what a doubled use adds to the cost; 0 turns the term off. `least_factor`: the smallest factor of cells
@@ -22,17 +23,19 @@ class UsagePenalty {
   UsagePenalty(Size exemplar, double weight, double least_factor, const std::vector<double>& demand = {});
   /// Fixed pixels do not count.
   void recount(const Field& field, const FixedPixels& fixed);
-  /// The same for the last time: recount() does nothing from now on.
-  void count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
+  /// Counts for the last time: recount() does nothing from now on.
+  void freeze_counts(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
   /// From now on factors accumulate: every count raises the price of cells that are used too much and lowers that of
   /// cells that are used too little (integral control). Else cells that fit badly everywhere would stay under-used.
-  void insist();
-  /// From now on every count includes what shows near by (ProximityPenalty), until count_for_good(). Counted fields
+  void enable_integral_control();
+  /// From now on every count includes what shows near by (ProximityPenalty), until freeze_counts(). Counted fields
   /// must hold the whole plane. Fixed pixels count there.
-  void look_around(const Plane& plane);
+  void enable_proximity_penalty(const Plane& plane);
   bool active() const { return weight_ > 0; }
+  /// The factor at an exemplar pixel, in unit_factor.
   uint32_t factor(int x, int y) const { return factors_[cells_.of(x, y)]; }
-  /// The factors of all cells at a position of the plane for what shows near by; null without look_around().
+  /// The factors of all cells at a position of the plane for what shows near by, in unit_factor; null if that does not
+  /// count.
   const uint16_t* nearby_factors(int x, int y) const { return nearby_ ? nearby_->factors(x, y) : nullptr; }
   size_t cell(int x, int y) const { return cells_.of(x, y); }
 
@@ -41,7 +44,7 @@ class UsagePenalty {
 
   double weight_;
   double least_factor_;
-  bool settled_ = false;
+  bool frozen_ = false;
   Size exemplar_;
   ExemplarCells cells_;
   std::vector<double> areas_;   // usable pixels of each cell

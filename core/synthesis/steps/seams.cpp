@@ -16,18 +16,18 @@ namespace terrazzo {
 namespace {
 
 struct SeamsTuning {
-  double fair_pressure = appearance_limit / 55.0;
-  double most_pressure = 3;
+  double fair_unary_cost = appearance_limit / 55.0;
+  double most_unary_cost = 3;
   int smallest_piece = 2;
   int sweeps = 1;
 };
 const Tunable<SeamsTuning> seams_tuning(
     "seams",
     {
-        {&SeamsTuning::fair_pressure, "fair_pressure", "appearance units per pixel",
+        {&SeamsTuning::fair_unary_cost, "fair_unary_cost", "appearance units per pixel",
          "the cost of a pixel in a piece of a fair size. Higher: large pieces give way; lower: they swallow small ones",
          "seams", 0, 10000},
-        {&SeamsTuning::most_pressure, "most_pressure", "fair pressures",
+        {&SeamsTuning::most_unary_cost, "most_unary_cost", "fair_unary_cost",
          "higher: the largest pieces give way still more; lower: from some size on they grow", "seams", 0, 1000},
         {&SeamsTuning::smallest_piece, "smallest_piece", "pixels of the field",
          "higher: less time, as smaller pieces only give way; lower: single pixels may spread",
@@ -38,18 +38,18 @@ const Tunable<SeamsTuning> seams_tuning(
 
 class SeamMover {
  public:
-  SeamMover(ExpansionGround& ground, const Field& before, const SeamMoves& moves)
-      : ground_(ground),
+  SeamMover(ExpansionProblem& problem, const Field& before, const SeamMoves& moves)
+      : problem_(problem),
         before_(before),
         reach_(moves.reach),
-        stay_(int32_t(moves.stay * mismatch_unit)),
-        expansion_(ground) {}
+        distance_penalty_(int32_t(moves.distance_penalty * mismatch_unit)),
+        expansion_(problem) {}
 
   /// Offers the piece's remaining pixels' continuations to the pixels in its reach, at that cost and more per distance.
-  void spread(std::span<const int> piece, int32_t pressure) {
+  void spread(std::span<const int> piece, int32_t unary_cost) {
     std::vector<Reached> rim, next;
     for (const int i : piece) {
-      if (!(ground_.field.pixels[i] == before_.pixels[i])) continue;
+      if (!(problem_.field.pixels[i] == before_.pixels[i])) continue;
       expansion_.keep(i);
       rim.push_back({i, before_.pixels[i]});
     }
@@ -60,7 +60,8 @@ class SeamMover {
           const int64_t n = beside(from.pixel, side);
           if (n < 0) continue;
           Reached reached{int(n), from.shown};
-          if (step(reached.shown, side) && expansion_.offer(reached.pixel, reached.shown, pressure + (r + 1) * stay_))
+          if (step(reached.shown, side) &&
+              expansion_.offer(reached.pixel, reached.shown, unary_cost + (r + 1) * distance_penalty_))
             next.push_back(reached);
         }
       rim.swap(next);
@@ -75,35 +76,35 @@ class SeamMover {
   };
 
   int64_t beside(int pixel, int side) const {
-    const PlaneWindow& window = ground_.level.window;
-    return pixel_beside(ground_.field.size, pixel, side, window.closed_x, window.closed_y);
+    const PlaneWindow& window = problem_.level.window;
+    return pixel_beside(problem_.field.size, pixel, side, window.closed_x, window.closed_y);
   }
 
   /// Steps to the exemplar's neighbour on that side, if it has one.
   bool step(ExemplarPixel& p, int side) const {
-    const int block = ground_.level.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
-    const PaddedLevel& e = ground_.level.exemplar;
+    const int block = problem_.level.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
+    const PaddedLevel& e = problem_.level.exemplar;
     if (!e.holds(x, y) || !e.holds(x + block - 1, y + block - 1)) return false;
     p = {uint16_t(x), uint16_t(y)};
     return true;
   }
 
-  ExpansionGround& ground_;
+  ExpansionProblem& problem_;
   const Field& before_;
   int reach_;
-  int32_t stay_;
+  int32_t distance_penalty_;
   Expansion expansion_;
 };
 
 /// The cost of a pixel in each piece, by its size. Pieces with fixed pixels cannot shrink and count as fair.
-std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPixels& fixed) {
+std::vector<int32_t> unary_costs(const Pieces& pieces, double fair, const FixedPixels& fixed) {
   std::vector<int32_t> out(size_t(pieces.count()), 0);
   if (fair <= 0) return out;
   for (int piece = 0; piece < pieces.count(); piece++) {
     const bool kept =
         fixed.any() && std::ranges::any_of(pieces.members(piece), [&](int i) { return fixed.at(size_t(i)); });
-    out[size_t(piece)] = int32_t(seams_tuning->fair_pressure * mismatch_unit *
-                                 (kept ? 1 : std::min(seams_tuning->most_pressure, pieces.area(piece) / fair)));
+    out[size_t(piece)] = int32_t(seams_tuning->fair_unary_cost * mismatch_unit *
+                                 (kept ? 1 : std::min(seams_tuning->most_unary_cost, pieces.area(piece) / fair)));
   }
   return out;
 }
@@ -117,19 +118,19 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   for (const int piece : order)
     if (pieces.area(piece) >= seams_tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
-  const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
-  ExpansionGround ground(field, level, true);
-  ground.pressure.resize(field.pixels.size());
+  const std::vector<int32_t> unary_cost = unary_costs(pieces, moves.target_area, level.fixed);
+  ExpansionProblem problem(field, level, true);
+  problem.unary_cost.resize(field.pixels.size());
   for (int piece = 0; piece < pieces.count(); piece++)
-    for (const int i : pieces.members(piece)) ground.pressure[size_t(i)] = pressure[size_t(piece)];
-  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves); });
+    for (const int i : pieces.members(piece)) problem.unary_cost[size_t(i)] = unary_cost[size_t(piece)];
+  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(problem, before, moves); });
   size_t done = 0;
   for (const std::vector<int>& round : rounds.all()) {
     task.progress(double(done++) / double(rounds.all().size()));
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();
       const int piece = round[size_t(i)];
-      movers.local().spread(pieces.members(piece), pressure[size_t(piece)]);
+      movers.local().spread(pieces.members(piece), unary_cost[size_t(piece)]);
     });
   }
 }

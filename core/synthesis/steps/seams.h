@@ -6,15 +6,15 @@
 
 namespace terrazzo {
 
-/// How seams move. Callers choose by level and lattice.
+/// How seams move.
 struct SeamMoves {
   int reach;  ///< by how many pixels of the field a piece may spread
   /// The cost of a pixel that changes over to a piece, per pixel of distance from that piece, in appearance units. Then
   /// seams go far only to a joint, and to either side alike, so that pieces do not grow by it.
-  double stay = 0;
-  /// If above 0, pixels pay for the size of their piece, so that large pieces do not swallow small ones: the full cost
-  /// at this many pixels of the field.
-  double fair_piece = 0;
+  double distance_penalty = 0;
+  /// If above 0, pixels pay in proportion to the area of their piece, so that large pieces do not swallow small ones:
+  /// seams.fair_unary_cost at this area, in pixels of the field.
+  double target_area = 0;
 };
 
 /// Moves the seams between pieces to where they show least. Edges hide them: along a joint any two bricks may meet,

@@ -75,16 +75,16 @@ TEST_CASE("what is near is counted unless that took too much memory") {
   CHECK_FALSE(ProximityPenalty::is_worth_it({16, 16}, ExemplarCells({16, 16}), {{4096, 4096}}));
 }
 
-TEST_CASE("usage looks around from when it is told to until it has counted for good") {
+TEST_CASE("usage counts what shows near by from when it is told to until its counts are frozen") {
   UsagePenalty usage(exemplar, 0.7, 0.5), even(exemplar, 0, 0.5);
   CHECK(usage.nearby_factors(24, 24) == nullptr);
   const Field field = with_copies({128, 64}, {{20, 20}, {28, 20}});
-  usage.look_around({field.size});
+  usage.enable_proximity_penalty({field.size});
   usage.recount(field, {});
   REQUIRE(usage.nearby_factors(24, 24));
   CHECK(usage.nearby_factors(24, 24)[usage.cell(20, 20)] > unit_factor * 3 / 2);
-  usage.count_for_good(field.pixels, {});
+  usage.freeze_counts(field.pixels, {});
   CHECK(usage.nearby_factors(24, 24) == nullptr);
-  even.look_around({field.size});
+  even.enable_proximity_penalty({field.size});
   CHECK(even.nearby_factors(24, 24) == nullptr);
 }

@@ -28,21 +28,22 @@ TEST_CASE("even use costs nothing, what is used too much is dear and what is use
   CHECK(uneven.factor(31, 31) == unit_factor * 3 / 4);
 }
 
-TEST_CASE("who insists makes what stays unevenly used dearer and cheaper with every count, and never for nothing") {
-  UsagePenalty insistent(exemplar, 0.7, 0.5), content(exemplar, 0.7, 0.5);
-  insistent.insist();
-  content.insist();
+TEST_CASE(
+    "under integral control what stays unevenly used gets dearer and cheaper with every count, and never for nothing") {
+  UsagePenalty controlled(exemplar, 0.7, 0.5), content(exemplar, 0.7, 0.5);
+  controlled.enable_integral_control();
+  content.enable_integral_control();
   uint32_t dearest = unit_factor, cheapest = unit_factor;
   for (int count = 0; count < 2; count++) {
-    insistent.recount(showing({64, 64}, 16, 32), {});
-    CHECK(insistent.factor(0, 0) > dearest);
-    CHECK(insistent.factor(31, 31) < cheapest);
-    dearest = insistent.factor(0, 0);
-    cheapest = insistent.factor(31, 31);
+    controlled.recount(showing({64, 64}, 16, 32), {});
+    CHECK(controlled.factor(0, 0) > dearest);
+    CHECK(controlled.factor(31, 31) < cheapest);
+    dearest = controlled.factor(0, 0);
+    cheapest = controlled.factor(31, 31);
   }
-  for (int count = 0; count < 100; count++) insistent.recount(showing({64, 64}, 16, 32), {});
-  CHECK(insistent.factor(31, 31) >= unit_factor / 4);
-  CHECK(insistent.factor(0, 0) <= 8 * unit_factor);
+  for (int count = 0; count < 100; count++) controlled.recount(showing({64, 64}, 16, 32), {});
+  CHECK(controlled.factor(31, 31) >= unit_factor / 4);
+  CHECK(controlled.factor(0, 0) <= 8 * unit_factor);
   for (int count = 0; count < 100; count++) content.recount(showing({64, 64}, 32, 32), {});
   CHECK(content.factor(0, 0) == unit_factor);
 }

@@ -165,11 +165,11 @@ TEST_CASE("to be far from its piece costs a pixel: seams go to a joint all the s
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
   const Field before = field;
-  move_seams(field, in_blocks(exemplar), {.reach = 8, .stay = 8}, Task());
+  move_seams(field, in_blocks(exemplar), {.reach = 8, .distance_penalty = 8}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
 
   field = before;
-  move_seams(field, in_blocks(exemplar), {.reach = 8, .stay = 4000}, Task());
+  move_seams(field, in_blocks(exemplar), {.reach = 8, .distance_penalty = 4000}, Task());
   CHECK(field.pixels == before.pixels);
 }
 
@@ -178,14 +178,15 @@ TEST_CASE("a large piece swallows a small one, unless to be large or far from it
   level.size = {96, 64};
   for (int i = 0; i < level.size.area(); i++) level.vectors.push_back({int16_t(below(uint32_t(random_bits(8, i)), 4))});
   const PaddedLevel plain(level, false);
-  const auto left_of_small = [&](double fair, double stay) {
+  const auto left_of_small = [&](double fair, double distance_penalty) {
     Field field{{30, 20}, {}};
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) {
         const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
         field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
       }
-    move_seams(field, in_blocks(plain), {.reach = 8, .stay = stay, .fair_piece = fair}, Task());
+    move_seams(field, in_blocks(plain), {.reach = 8, .distance_penalty = distance_penalty, .target_area = fair},
+               Task());
     int left = 0;
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;
