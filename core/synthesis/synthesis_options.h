@@ -23,19 +23,19 @@ struct SynthesisOptions {
   Quality quality = Quality::normal;
   /// Factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces.
   double coherence = 0.7;
-  /// Weight of the usage term; 0: parts of the exemplar may be over-used.
+  /// Weight of UsagePenalty and ProximityPenalty; 0: parts of the exemplar may be over-used.
   double evenness = 0.7;
-  /// Bricks and boards of an exemplar built of courses are laid whole (lay_courses()), but in drafts, under controls
-  /// and between kept pixels; so are elements that the analysis knows (lay_elements()), between kept pixels, too.
+  /// Whether bricks and boards of courses are laid whole (lay_courses()), except between kept pixels, and elements that
+  /// the analysis knows (lay_elements()). Neither is in drafts or under controls.
   bool whole_bricks = true;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
   std::vector<double> jitter{};
   /// What steers the exemplar's parts to their places.
   std::vector<Control> controls{};
-  /// Output pixels that are there already: they stay bit for bit, and the others continue them.
+  /// Output pixels that are given: those that are always kept stay bit for bit, and the others continue them.
   ExistingPixels kept{};
-  /// The output position of the kept pixels' (0, 0): where the lattices of an exemplar's parts start. That of a whole
-  /// exemplar starts elsewhere with each seed, or where it does in what is kept.
+  /// Where the lattices of an exemplar of several parts (Repeats::parts) start: the output position of the kept pixels'
+  /// (0, 0). Other lattices start at random, or as the kept pixels have them.
   std::array<int, 2> origin{};
 };
 

@@ -45,15 +45,11 @@ class PaddedLevel {
     const size_t at = size_t(y) * size_.width + x;
     return !masked_ || nearest_usable_[at] == at;
   }
-  /// As settle_inside; false if the position is not usable.
-  bool settles(int& x, int& y) const {
-    settle_inside(x, y);
-    return is_usable(x, y);
-  }
   /// Whether a position, which may lie outside, is usable without being moved.
   bool holds(int x, int y) const {
     int u = x, v = y;
-    return settles(u, v) && u == x && v == y;
+    settle_inside(u, v);
+    return u == x && v == y && is_usable(x, y);
   }
   /// A usable position for 64 random bits, all equally likely.
   std::array<int, 2> place(uint64_t bits) const {

@@ -8,12 +8,11 @@
 
 namespace terrazzo {
 
-/// How long an output pixel that is there already stays as it is. Those that are kept at first may be replaced later,
-/// so that the seam between old and new can look for its place. Moving seams never restores what a pixel of `never`
-/// showed.
+/// How long an output pixel that is given stays as it is. Those that are kept at first may be replaced later, so that
+/// the seam between old and new can look for its place. Moving seams never restores what a pixel of `never` showed.
 enum class Keep : uint8_t { never, at_first, always };
 
-/// Output pixels that are there already.
+/// Output pixels that are given.
 struct ExistingPixels {
   std::vector<ExemplarPixel> pixels{};  ///< what each output pixel shows; arbitrary where `keep` is `never`
   std::vector<Keep> keep{};             ///< of each output pixel; both are empty if none is kept
@@ -22,7 +21,7 @@ struct ExistingPixels {
   LatticeGaps gaps(Size output) const;
 };
 
-/// The fixed pixels of a level: those all of whose finest pixels are kept.
+/// The fixed pixels of a level: those all of whose finest pixels are always kept. Thread-safe to read.
 class FixedPixels {
  public:
   /// Nothing is fixed.
