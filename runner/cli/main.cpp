@@ -30,6 +30,11 @@ pid_t main_process = 0;
   __builtin_trap();
 }
 
+}  // namespace
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+namespace {
+
 /// Asks for huge pages around large memory: it is written as a whole, and page by page that costs a fifth of a layout
 /// (tests/bench/performance.md).
 void* in_huge_pages(void* memory, size_t bytes) {
@@ -44,7 +49,6 @@ void* in_huge_pages(void* memory, size_t bytes) {
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // These replace the C++ library's operators, with which all others are written.
 [[gnu::visibility("default")]] void* operator new(size_t bytes) {
   while (true) {
