@@ -213,7 +213,7 @@ TEST_CASE("changes cancel what is stale and queue nothing") {
 TEST_CASE("pictures follow changes that come faster than they can be shown") {
   const TemporaryFolder folder;
   WatchedRuns watched(folder.path());
-  watched.change(wall_text(0, 384));
+  watched.change(wall_text(0, 128));
   watched.look_at("result");
   watched.wait();
   watched.forget_events();
@@ -221,14 +221,14 @@ TEST_CASE("pictures follow changes that come faster than they can be shown") {
   const auto until = std::chrono::steady_clock::now() + long_time;
   int seed = 0;
   while (shown() < 3 && std::chrono::steady_clock::now() < until) {
-    watched.change(wall_text(++seed, 384));
+    watched.change(wall_text(++seed, 128));
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   CHECK(shown() >= 3);
   CHECK(int(watched.count("start", "layout")) < seed);
   watched.wait();
   CHECK(watched.last_base_colour("result")->pixels() ==
-        base_colour_of_run(wall_text(seed, 384), folder.path())->pixels());
+        base_colour_of_run(wall_text(seed, 128), folder.path())->pixels());
 }
 
 TEST_CASE("a change that has no influence on what is being made lets it go on") {
