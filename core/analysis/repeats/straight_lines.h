@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/analysis/repeats/exemplar_view.h"
+#include "core/analysis/repeats/lag_correlation.h"
 #include "core/base/task.h"
 #include "core/exemplar/lattice.h"
 

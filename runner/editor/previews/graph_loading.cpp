@@ -141,7 +141,7 @@ std::shared_ptr<const LoadedGraph> load_sound(const std::string& text, const fs:
       if (!unsound.contains(m.name)) sound.insert(m.name);
     if (sound.empty()) return nullptr;
     try {
-      const std::shared_ptr<const LoadedGraph> loaded = load_within(with_only(*parsed.value, sound), file, sandbox);
+      std::shared_ptr<const LoadedGraph> loaded = load_within(with_only(*parsed.value, sound), file, sandbox);
       problems = sandbox_problems(loaded->graph.nodes, sandbox);
       if (problems.empty()) return loaded;
     } catch (const GraphError& e) {

@@ -31,7 +31,8 @@ TEST_CASE("blender-addon writes every file of the add-on, the same bytes each ti
     CHECK(read_text(w.path / "unpacked/terrazzo_blender" / entry.path().filename()) == read_text(entry.path()));
   }
   CHECK(files == addon_files().size());
-  CHECK(read_text(w.path / "unpacked/terrazzo_blender/written_by.txt") == fs::canonical(TERRAZZO_PROGRAM).string() + "\n");
+  CHECK(read_text(w.path / "unpacked/terrazzo_blender/written_by.txt") ==
+        fs::canonical(TERRAZZO_PROGRAM).string() + "\n");
   CHECK(files > 10);
 }
 
