@@ -293,7 +293,7 @@ bool seems_to_tile(const Material& material, const Task& task, const ImagePtr& m
     return std::ranges::any_of(maps, [&](const SeenMap& map) { return is_joint_that_recurs(map, rows); });
   };
   return !maps.empty() && borders_fit(maps, task) &&
-         ((on_joint(true) && on_joint(false)) || !cells_deny(material, mask, task));
+         (!cells_deny(material, mask, task) || (on_joint(true) && on_joint(false)));
 }
 
 }  // namespace terrazzo
