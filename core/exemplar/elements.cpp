@@ -53,7 +53,7 @@ double joints_in_step(const Elements& elements, const Lattice& lattice, bool wra
         all++;
         again += is_near(to);
       }
-    if (all == 0) return 0;
+    if (all == 0 || chance == pixels) return 0;  // nothing is told where all pixels are near a joint
     const double by_chance = double(chance) / double(pixels), share = double(again) / double(all);
     least = std::min(least, (share - by_chance) / (1 - by_chance));
   }

@@ -37,4 +37,9 @@ TEST_CASE("joints in step are those that come again one step further along both 
   CHECK(joints_in_step(stones, cells, false) < 0.3);
   CHECK(joints_in_step(grid, Lattice{1, {24, 0}, {}, 1}, true) == 0);
   CHECK(joints_in_step(Elements{{8, 8}, std::vector<uint16_t>(64), 1, 1}, cells, false) == 0);
+  // So small that every pixel is near a joint: nothing is told.
+  Elements crumbs{{96, 96}, {}, 24 * 24, 1};
+  for (int y = 0; y < 96; y++)
+    for (int x = 0; x < 96; x++) crumbs.at.push_back(uint16_t(x / 4 + y / 4 * 24));
+  CHECK(joints_in_step(crumbs, Lattice{2, {6, 0}, {0, 6}, 0}, true) == 0);
 }
