@@ -2,6 +2,7 @@
 
 #include "core/exemplar/features.h"
 #include "graphs/text/stock_graphs.h"
+#include "nodes/common/exemplar_lint.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_run.h"
@@ -63,8 +64,8 @@ NewGraph new_graph(const ExemplarFlags& exemplar, const fs::path& out, const std
                 .findings = {"found " + look.exemplar->map_names(), look.nature(), look.advice()}};
   if (const std::string light = look.light(); !light.empty())
     made.findings.push_back(light + "; the node \"delight\" takes it out");
-  if (const std::string lone = look.lone(); !lone.empty())
-    made.findings.push_back(lone + ": a result repeats it; crop it off, paint it over (inpaint), or mask it");
+  if (const LoneFeature& lone = look.faults.lone; lone.is_seen())
+    made.findings.push_back(lone_feature_message("base_color", lone));
   return made;
 }
 

@@ -152,11 +152,6 @@ std::string ExemplarFindings::light() const {
                      100 * faults.brightening, faults.bright_side, faults.dark_side);
 }
 
-std::string ExemplarFindings::lone() const {
-  if (!faults.lone.is_seen()) return "";
-  return fmt::format("It shows something around ({}, {}) only once", faults.lone.x, faults.lone.y);
-}
-
 bool takes_an_exemplar(std::string_view graph, bool is_picture) {
   ParsedJson parsed = parse_json(graph);
   if (!parsed.value || parsed.value->find("inputs")) return false;

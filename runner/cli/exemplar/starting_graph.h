@@ -32,8 +32,6 @@ struct ExemplarFindings {
   std::string advice() const;
   /// A sentence on light that was baked in; empty if there is none.
   std::string light() const;
-  /// A sentence on something that it shows only once; empty if there is none.
-  std::string lone() const;
 };
 
 /// Whether a graph has a parameter for an exemplar's folder, or for a single picture, and declares no inputs.
