@@ -30,13 +30,11 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
          "taken for them",
          "not measured: layers of rock have up to a tenth, along one axis"},
         {&StraightLinesTuning::recurring, "recurring", "factor",
-         "on that where lines come twice and more along both axes, one of them as often as bands do. Higher: tiles "
-         "with "
-         "thin joints are torn; lower: chance lines make tiles",
+         "on that where lines come twice and more along both axes, one of them as often as bands do. Higher: thin "
+         "joints are torn; lower: chance lines make tiles",
          "regularity", 0, 1},
         {&StraightLinesTuning::same_step, "same_step", "share of the correlation",
-         "of joints a step along and a step down that either alone must have, or they are a bond. Higher: worn tiles "
-         "are "
+         "of joints a step along and down that either alone must have, or they are a bond. Higher: worn tiles are "
          "laid as bricks; lower: bricks are laid as tiles",
          "regularity", 0, 1},
         {&StraightLinesTuning::least_parallel, "least_parallel", "share of the variance",
