@@ -32,16 +32,17 @@ const Tunable<BorderJointsTuning> border_joints_tuning(
          "wrap_detection", 1, 1000},
     });
 
-/// The means of each row, or column, by channel; of pixels that count. 0 where none does.
-std::vector<double> line_means(const SeenMap& map, bool rows) {
+/// The means of so many groups of pixels, by channel; of pixels that count. 0 where none does.
+template <typename GroupOf>
+std::vector<double> group_means(const SeenMap& map, int groups, const GroupOf& group_of) {
   const auto channels = size_t(map.image->channels()), width = size_t(map.image->width());
-  std::vector<double> sums(size_t(map.lines(rows)) * channels, 0.0), counted(size_t(map.lines(rows)), 0.0);
+  std::vector<double> sums(size_t(groups) * channels, 0.0), counted(size_t(groups), 0.0);
   for_each_strip(*map.image, [&](const Rect& strip, const float* pixels) {
     for (size_t i = 0; i < size_t(strip.area()); i++) {
-      const size_t x = i % width, y = size_t(strip.y) + i / width, line = rows ? y : x;
+      const size_t x = i % width, y = size_t(strip.y) + i / width, group = group_of(x, y);
       if (!map.counts.empty() && !map.counts[y * width + x]) continue;
-      counted[line]++;
-      for (size_t c = 0; c < channels; c++) sums[line * channels + c] += pixels[i * channels + c];
+      counted[group]++;
+      for (size_t c = 0; c < channels; c++) sums[group * channels + c] += pixels[i * channels + c];
     }
   });
   for (size_t i = 0; i < sums.size(); i++) sums[i] /= std::max(1.0, counted[i / channels]);
@@ -69,16 +70,7 @@ bool stands_out(const PixelLine& line, const std::vector<double>& means) {
 }  // namespace
 
 bool has_joint_along_border(const SeenMap& map) {
-  const auto pixels_that_count =
-      double(map.counts.empty() ? map.image->size().area() : std::ranges::count(map.counts, 1));
-  const auto channels = size_t(map.image->channels());
-  std::vector<double> means(channels, 0.0);
-  for_each_strip(*map.image, [&](const Rect& strip, const float* pixels) {
-    const size_t before = size_t(strip.y) * size_t(strip.width);
-    for (size_t i = 0; i < size_t(strip.area()); i++)
-      if (map.counts.empty() || map.counts[before + i])
-        for (size_t c = 0; c < channels; c++) means[c] += pixels[i * channels + c] / pixels_that_count;
-  });
+  const std::vector<double> means = group_means(map, 1, [](size_t, size_t) { return size_t{0}; });
   for (const bool rows : {true, false})
     for (const int i : {-1, 0})
       if (stands_out(line_of(map, rows, i), means)) return true;
@@ -88,7 +80,7 @@ bool has_joint_along_border(const SeenMap& map) {
 bool is_joint_that_recurs(const SeenMap& map, bool rows) {
   const auto channels = size_t(map.image->channels());
   const int lines = map.lines(rows), breadth = border_joints_tuning->breadth;
-  const std::vector<double> means = line_means(map, rows);
+  const std::vector<double> means = group_means(map, lines, [&](size_t x, size_t y) { return rows ? y : x; });
   // Squared, of the lines around one place from those around another; places lie before the line of that number.
   const auto distance = [&](int a, int b) {
     double sum = 0;
