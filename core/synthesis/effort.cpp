@@ -13,8 +13,7 @@ const Tunable<EffortTuning> effort_tuning(
     "effort",
     {
         {&EffortTuning::small_passes, "small_passes", "passes",
-         "on level 1 where it is one of the coarsest two: exemplars under 128 pixels. Higher: fewer crumbs; costs time",
-         "small_exemplars", 0, 100},
+         "on level 1 of exemplars under 128 pixels. Higher: fewer crumbs; costs time", "small_exemplars", 0, 100},
     });
 
 }  // namespace
@@ -31,7 +30,7 @@ Effort effort_of(const LevelFacts& f) {
     return {16, f.level >= 3 ? 24 : 8, &full_window()};
   }
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
-  if (f.level == 1) return {f.is_among_coarsest() ? effort_tuning->small_passes : 2, 0, &full_window()};
+  if (f.level == 1) return {f.small() ? effort_tuning->small_passes : 2, 0, &full_window()};
   if (f.kept) return {10, f.level >= 3 ? 24 : 8, &full_window()};
   return {7, f.level >= 3 ? 24 : 8, &full_window()};
 }

@@ -86,7 +86,6 @@ Field LevelWork::coarsest_field() {
 Field LevelWork::upsampled_blocks(const Field& parent, const PlaneWindow& window) {
   Field starts;
   const FixedPixels fixed = shared_.fixed(facts_.level + 1);
-  find_candidates({Phase::upsampling});
   CorrectionLevel level = correction_level(window, fixed);
   level.block = 2;
   StepContext c = context(level, starts);
@@ -107,7 +106,8 @@ Field LevelWork::initial_field(std::span<const ExemplarPixel> starts, const Plan
 }
 
 void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wanted) {
-  find_candidates({Phase::before_pass, Phase::pass});
+  if (candidates_.empty())
+    candidates_ = unpacked(shared_.index.levels()[size_t(facts_.level)], shared_.exemplar(facts_.level).size);
   const CorrectionLevel level = correction_level(window, fixed_);
   StepContext c = context(level, field);
   c.wanted = wanted;
@@ -129,15 +129,6 @@ void LevelWork::report(double steps) const {
   const double coarser = facts_.coarsest() ? 0 : 1.0 / 3, part = std::min(1.0, steps / std::max(1, steps_));
   const double here = (coarser + part) / (coarser + 1);
   shared_.task.progress(std::ldexp(here, -2 * (facts_.level - shared_.finest)));
-}
-
-void LevelWork::find_candidates(std::initializer_list<Phase> phases) {
-  if (!candidates_.empty()) return;
-  const auto steps = synthesis_steps();
-  if (std::any_of(steps.begin(), steps.end(), [&](const Step& s) {
-        return s.reads_candidates && s.applies(facts_) && std::ranges::find(phases, s.phase) != phases.end();
-      }))
-    candidates_ = unpacked(shared_.index.levels()[size_t(facts_.level)], shared_.exemplar(facts_.level).size);
 }
 
 StepContext LevelWork::context(const CorrectionLevel& level, Field& field) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <vector>
@@ -39,7 +38,6 @@ class LevelWork {
   void run(Phase phase, StepContext& c);
   /// Reports progress after so many of the level's steps.
   void report(double steps) const;
-  void find_candidates(std::initializer_list<Phase> phases);
   StepContext context(const CorrectionLevel& level, Field& field);
   CorrectionLevel correction_level(const PlaneWindow& window, const FixedPixels& fixed) const;
 
@@ -54,7 +52,7 @@ class LevelWork {
   int steps_ = 0;        // that run on this level, each as often as it does; corrections count several times
   int first_steps_ = 0;  // of them, before the corrections
   int done_ = 0;
-  std::vector<ExemplarPixel> candidates_;  // k-coherent, of every exemplar pixel; once a step needs them
+  std::vector<ExemplarPixel> candidates_;  // k-coherent, of every exemplar pixel; once corrections begin
 };
 
 }  // namespace terrazzo

@@ -63,6 +63,16 @@ Repeats repeats_of(const Appearance& appearance, const SynthesisOptions& options
   return comes_once && !options.controls.empty() ? Repeats() : appearance.repeats();
 }
 
+/// Elements that lie in phase with a lattice of cells keep to it, and so do bricks and boards of straight courses.
+WholeElements whole_elements_of(const Appearance& appearance, const Repeats& repeats, const SynthesisOptions& options) {
+  if (!options.whole_bricks || !has_elements(appearance)) return WholeElements::none;
+  const Lattice& lattice = repeats.lattice;
+  if (!is_grid(lattice, appearance)) return keeps_to_courses(lattice) ? WholeElements::none : WholeElements::free;
+  const bool small = typical_side(*appearance.elements()) < shared_work_tuning->shortest_brick;
+  if (!repeats.parts.empty()) return small ? WholeElements::none : WholeElements::free;
+  return small ? WholeElements::completed : WholeElements::in_cells;
+}
+
 }  // namespace
 
 bool keeps_to_courses(const Lattice& lattice) {
@@ -85,11 +95,7 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       gaps(options.kept.gaps(options.size)),
       origin(lattice_start(index, options)),
       controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task),
-      whole_elements(options.whole_bricks && has_elements(*index.appearance())),
-      elements_in_grid(whole_elements && is_grid(lattice, *index.appearance())),
-      elements_by_lattice(elements_in_grid
-                              ? typical_side(*index.appearance()->elements()) < shared_work_tuning->shortest_brick
-                              : whole_elements && keeps_to_courses(lattice)) {}
+      elements(whole_elements_of(*index.appearance(), repeats, options)) {}
 
 Plane SharedWork::plane(int level) const {
   return {level_size(options.size, level), options.tile_x, options.tile_y};
@@ -109,7 +115,8 @@ LatticeSurface SharedWork::surface() const {
 }
 
 const Lattice* SharedWork::element_lattice() const {
-  return (lattice.rank == 1 || elements_in_grid) && repeats.parts.empty() ? &lattice : nullptr;
+  const bool along_courses = lattice.rank == 1 && repeats.parts.empty();
+  return along_courses || elements == WholeElements::in_cells ? &lattice : nullptr;
 }
 
 LevelFacts SharedWork::facts(int level) const {
@@ -121,9 +128,7 @@ LevelFacts SharedWork::facts(int level) const {
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && repeats.parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),
-          .has_elements = whole_elements && !elements_by_lattice,
-          .elements_on_lattice = lattice.rank == 2 && element_lattice() != nullptr,
-          .small_elements = elements_by_lattice && element_lattice() && lattice.rank == 2};
+          .elements = elements};
 }
 
 }  // namespace terrazzo

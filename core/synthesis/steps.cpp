@@ -130,7 +130,7 @@ bool penalizes_proximity(const LevelFacts& f) {
 /// other exemplars moving seams brings nothing. Between elements that are laid as wholes there is nothing to move.
 bool moves_seams(const LevelFacts& f) {
   return f.level <= finest_whole_level && (f.regular || f.kept) && !is_draft(f) &&
-         (!f.lays_elements() || f.elements_on_lattice);
+         (!f.lays_elements() || f.elements == WholeElements::in_cells);
 }
 
 bool keeps_pixels(const LevelFacts& f) {
@@ -165,12 +165,11 @@ void penalize_proximity(StepContext& c) {
 }
 
 void place_blocks(StepContext& c) {
-  c.field = random_blocks(c.shared.plane(c.facts.level), c.level.exemplar, c.level.control, c.level.phase,
-                          c.shared.options.seed);
+  c.field = random_blocks(c.level, c.shared.options.seed);
 }
 
 void jitter_coarsest(StepContext& c) {
-  scatter(c.field, c.level.exemplar, c.shared.jitter(c.facts.level), c.shared.options.seed, c.facts.level);
+  scatter(c.field, c.level, c.shared.jitter(c.facts.level), c.shared.options.seed);
 }
 
 void begin_with_kept(StepContext& c) {
@@ -178,8 +177,7 @@ void begin_with_kept(StepContext& c) {
 }
 
 void upsample(StepContext& c) {
-  c.field = block_starts(*c.parent, c.level.window, c.level.exemplar, c.level.phase, c.shared.jitter(c.facts.level),
-                         c.shared.options.seed, c.facts.level);
+  c.field = block_starts(*c.parent, c.level, c.shared.jitter(c.facts.level), c.shared.options.seed);
 }
 
 /// `c.level.fixed` is of the parents; what each block shows is told by the first of its pixels on this level.
@@ -188,7 +186,7 @@ void start_where_kept(StepContext& c) {
   const size_t width = size_t(c.shared.plane(c.facts.level).size.width);
   for (int row = 0; row < c.field.size.height; row++)
     for (int column = 0; column < c.field.size.width; column++)
-      if (level.fixed.at(level.window.index(column, row)))
+      if (level.is_fixed(column, row))
         c.field.at(column, row) = c.fixed.shown(2 * size_t(level.window.y(row)) * width + 2 * level.window.x(column));
 }
 
@@ -269,8 +267,6 @@ void correct_pixels(StepContext& c) {
 
 StepWatcher watcher;  // see watch_steps()
 
-constexpr bool with_candidates = true;
-
 const Step all_steps[] = {
     {"usage_penalty", Phase::costs, "over-used parts of the exemplar cost more and more", controls_use, control_use},
     {"proximity_penalty", Phase::costs, "parts that already appear nearby cost more", penalizes_proximity,
@@ -286,14 +282,14 @@ const Step all_steps[] = {
     {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes",
      [](const LevelFacts& f) { return f.lays_elements(); }, lay_whole_elements},
     {"element_cores", Phase::upsampling, "small tiles and bricks become whole where they lie",
-     [](const LevelFacts& f) { return f.completes_elements(); }, complete},
+     [](const LevelFacts& f) { return f.makes_elements_whole() && !f.lays_elements(); }, complete},
     {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
     {"graphcut_repair", Phase::before_pass, "the worst seams are covered with patches along minimum cuts",
-     repairs_seams, repair, with_candidates},
+     repairs_seams, repair},
     {"piece_limits", Phase::before_pass, "pieces that are too large or too small cost more to continue", limits_pieces,
      limit_pieces},
     {"correction", Phase::pass, "every pixel takes the best of its coherent and k-coherent candidates", always,
-     correct_pixels, with_candidates},
+     correct_pixels},
 };
 
 }  // namespace
@@ -312,12 +308,8 @@ bool LevelFacts::counts_use() const {
 }
 
 /// Like courses, where only seams still move. Controls say what goes where.
-bool LevelFacts::lays_elements() const {
-  return has_elements && level < finest_whole_level && quality != Quality::draft && !steered;
-}
-
-bool LevelFacts::completes_elements() const {
-  return small_elements && level < finest_whole_level && quality != Quality::draft && !steered;
+bool LevelFacts::makes_elements_whole() const {
+  return elements != WholeElements::none && level < finest_whole_level && quality != Quality::draft && !steered;
 }
 
 void watch_steps(StepWatcher watch) {

@@ -48,6 +48,14 @@ enum class Phase : uint8_t {
 };
 inline constexpr std::string_view phase_names[] = {"costs", "coarsest level", "upsampling", "before pass", "pass"};
 
+/// How the exemplar's elements become whole in the result, if that is asked for and it has enough of them.
+enum class WholeElements : uint8_t {
+  none,       ///< they do not, or as bricks of its courses
+  free,       ///< they are laid anywhere, or anywhere along its courses
+  in_cells,   ///< they are laid in the cells of its lattice
+  completed,  ///< they lie in such cells and are too small to be laid: they are completed where they lie
+};
+
 /// What decides which steps run on a level, computed once for it.
 struct LevelFacts {
   int level = 0;   ///< 0 = finest
@@ -59,9 +67,7 @@ struct LevelFacts {
   /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
   /// or of cells that are worth it.
   bool may_have_bricks = false;
-  bool has_elements = false;         ///< elements are to be laid as wholes
-  bool elements_on_lattice = false;  ///< they would be laid in the cells of a lattice
-  bool small_elements = false;       ///< they lie in such cells and are too small to be laid: they are completed
+  WholeElements elements = WholeElements::none;
 
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
@@ -70,10 +76,9 @@ struct LevelFacts {
   bool small() const;
   /// Whether how evenly the exemplar is used counts on this level.
   bool counts_use() const;
-  /// Whether elements are laid as wholes on this level, which then stay what they are.
-  bool lays_elements() const;
-  /// Whether elements too small for that are made whole where they lie.
-  bool completes_elements() const;
+  /// Whether elements become whole on this level. Those that are laid stay what they are.
+  bool makes_elements_whole() const;
+  bool lays_elements() const { return makes_elements_whole() && elements != WholeElements::completed; }
 };
 
 /// Whether elements are better laid along such courses, as bricks, than as wholes.
@@ -116,10 +121,8 @@ struct SharedWork {
   LatticeGaps gaps;  ///< between kept pixels
   Vector2d origin;   ///< where the lattice starts in the result
   ControlPyramid controls;
-  bool whole_elements;       ///< whole elements are asked for, and the exemplar has enough of them
-  bool elements_in_grid;     ///< whole_elements, and they lie in phase with the cells of the lattice
-  bool elements_by_lattice;  ///< whole_elements, but they are better laid by their lattice, as bricks or by seams
-  int finest = 0;            ///< the level that ends the work, for progress
+  WholeElements elements;
+  int finest = 0;  ///< the level that ends the work, for progress
 };
 
 /// What a step works on. Borrows everything; used by one thread.
@@ -148,8 +151,6 @@ struct Step {
   std::string_view purpose;  ///< one line
   bool (*applies)(const LevelFacts&);
   void (*run)(StepContext&);
-  /// Whether it reads CorrectionLevel::similar, which is filled only for levels whose steps do.
-  bool reads_candidates = false;
 };
 
 /// All steps, in the order in which they run.

@@ -119,7 +119,7 @@ ExemplarPixel StreakedSurface::first_of(const Axis& a, ExemplarPixel step) const
   return a.x ? ExemplarPixel{uint16_t(step.x * a.step), step.y} : ExemplarPixel{step.x, uint16_t(step.y * a.step)};
 }
 
-int StreakedSurface::end_by_lot(const Axis& a, int along, int across) const {
+int StreakedSurface::random_streak_end(const Axis& a, int along, int across) const {
   return int(random_bits(options_.seed, uint64_t(along), uint64_t(across)) % uint64_t(a.step));
 }
 
@@ -132,7 +132,7 @@ std::optional<ExemplarPixel> StreakedSurface::beside_kept(const Axis& a, int x, 
       if (!a.tiles && (along < 0 || along >= side)) continue;
       along = wrap(along, side);
       const size_t at = size_t(a.x ? y : along) * surface.width + size_t(a.x ? along : x);
-      if (options_.kept.keep[at] == Keep::always && away <= end_by_lot(a, along, across))
+      if (options_.kept.keep[at] == Keep::always && away <= random_streak_end(a, along, across))
         return along_streak(a, options_.kept.pixels[at], -by);
     }
   return std::nullopt;
@@ -146,7 +146,7 @@ std::optional<ExemplarPixel> StreakedSurface::kept_at(const Axis& a, int x, int 
   return keep == Keep::always || unchanged ? options_.kept.pixels[at] : beside_kept(a, x, y);
 }
 
-Field StreakedSurface::drawn_out(Field field, const Rect& region) const {
+Field StreakedSurface::stretched(Field field, const Rect& region) const {
   if (!streaks_.any()) return field;
   const Axis a = along(region);
   const auto shown = [&](int step, int row) -> std::optional<ExemplarPixel> {
@@ -163,7 +163,7 @@ Field StreakedSurface::drawn_out(Field field, const Rect& region) const {
       ExemplarPixel& p = out.at(i, j);
       p = *along_streak(a, own, within);
       // Where a streak ends is drawn by lot, so that ends do not line up.
-      const bool goes_on = within < end_by_lot(a, step, a.x ? y : x);
+      const bool goes_on = within < random_streak_end(a, step, a.x ? y : x);
       if (const std::optional<ExemplarPixel> before = goes_on ? shown(step - 1, row) : std::nullopt)
         p = along_streak(a, *before, a.step + within).value_or(p);
       p = kept_at(a, x, y, shortened(own)).value_or(p);

@@ -20,7 +20,7 @@ class StreakedSurface {
   /// The part of the shortened surface that drawing out a region looks at.
   Rect shortened(const Rect& region) const;
   /// A region of the surface. `field`: the part of the shortened surface for it.
-  Field drawn_out(Field field, const Rect& region) const;
+  Field stretched(Field field, const Rect& region) const;
 
  private:
   struct Axis;
@@ -32,7 +32,7 @@ class StreakedSurface {
   /// The first of the pixels that a step of the shortened exemplar stands for.
   ExemplarPixel first_of(const Axis& a, ExemplarPixel step) const;
   /// How many pixels on a streak ends that would at the border of a step.
-  int end_by_lot(const Axis& a, int along, int across) const;
+  int random_streak_end(const Axis& a, int along, int across) const;
   /// What goes on from a kept pixel less than a step away, as far as the lot says.
   std::optional<ExemplarPixel> beside_kept(const Axis& a, int x, int y) const;
   /// The same, or what is kept there itself.

@@ -84,7 +84,7 @@ Field refined_field(const SharedWork& s, std::span<const ExemplarPixel> coarse, 
 UvMapPtr finest_uv(const SharedWork& s, const StreakedSurface& surface, const SynthesisOptions& options,
                    std::span<const ExemplarPixel> coarse, const Rect& region) {
   const Appearance& appearance = *s.index.appearance();
-  Field field = surface.drawn_out(refined_field(s, coarse, surface.shortened(region)), region);
+  Field field = surface.stretched(refined_field(s, coarse, surface.shortened(region)), region);
   return UvMap::make(field.size, appearance.size(), std::move(field.pixels),
                      {options.tile_x && region.width == options.size.width,
                       options.tile_y && region.height == options.size.height, appearance.wraps()},

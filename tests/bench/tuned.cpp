@@ -13,12 +13,12 @@
 
 #include "core/base/error.h"
 #include "core/base/tuning.h"
-#include "core/synthesis/state/energy.h"
 #include "core/synthesis/state/expansion.h"
-#include "core/synthesis/state/window_coherence.h"
 #include "core/synthesis/steps.h"
 #include "core/synthesis/steps/initialize.h"
 #include "runner/cli/cli_commands.h"
+#include "tests/energy/energy.h"
+#include "tests/energy/window_coherence.h"
 
 using namespace terrazzo;
 
@@ -28,7 +28,7 @@ constexpr std::string_view usage =
     "usage: terrazzo_tuned [--tune NAME=VALUE]... [--step-times] [--step-energy] COMMAND...\n"
     "           terrazzo with other constants; its results have cache keys of their own\n"
     "           --step-times: prints the milliseconds of every step on every level, on standard error\n"
-    "           --step-energy: prints what the result costs after every step (core/synthesis/state/energy.h), as "
+    "           --step-energy: prints what the result costs after every step (tests/energy/energy.h), as "
     "columns\n"
     "           of level, step, pass; per pixel the window distance (1: usual), the share of unlike windows, the "
     "mismatch\n"

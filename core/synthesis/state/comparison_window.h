@@ -9,8 +9,16 @@ namespace terrazzo {
 /// neighbourhood. Those that reject most candidates come first.
 using Window = std::vector<std::array<int, 2>>;
 /// All 24 pixels of the 5x5 neighbourhood, nearest first.
-const Window& full_window();
+inline const Window& full_window() {
+  static const Window window = {{0, -1}, {-1, 0}, {1, 0},  {0, 1}, {-1, -1}, {1, -1}, {-1, 1},  {1, 1},
+                                {0, -2}, {-2, 0}, {2, 0},  {0, 2}, {-1, -2}, {1, -2}, {-2, -1}, {2, -1},
+                                {-2, 1}, {2, 1},  {-1, 2}, {1, 2}, {-2, -2}, {2, -2}, {-2, 2},  {2, 2}};
+  return window;
+}
 /// Eight pixels: the diagonal neighbours and those two steps away along the axes.
-const Window& sparse_window();
+inline const Window& sparse_window() {
+  static const Window window = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}, {0, -2}, {0, 2}, {-2, 0}, {2, 0}};
+  return window;
+}
 
 }  // namespace terrazzo

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/filter/resample.h"
@@ -32,8 +30,7 @@ const Tunable<ControlTuning> control_tuning(
     {
         {&ControlTuning::values_factor, "values_factor", "cost of a wrong label",
          "higher: the largest difference of values costs more, and the picture shows more clearly; lower: features "
-         "stay "
-         "whole",
+         "stay whole",
          "not measured: the parameter `strength` scales it"},
         {&ControlTuning::feature_side, "feature_side", "exemplar sides",
          "higher: values may differ as they do in larger features, which stay whole; lower: the picture shows more "
@@ -175,17 +172,6 @@ double typical_distance(const PaddedLevel& level) {
 }
 
 }  // namespace
-
-void require_control(Control::Mode mode, const ImageFacts& exemplar_control, const ImageFacts& target,
-                     std::optional<Size> exemplar) {
-  require_shape("exemplar_control", exemplar_control, "the exemplar", exemplar);
-  if (mode != Control::Mode::values || !exemplar_control.channels || !target.channels ||
-      *exemplar_control.channels == *target.channels)
-    return;
-  throw Error("target", fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put "
-                                    "\"grayscale\" before both, say",
-                                    describe(exemplar_control), describe(target)));
-}
 
 ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size finest, Size output,
                                int levels, const Task& task) {

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <vector>
 
 #include "core/analysis/space/padded_level.h"
 #include "core/base/task.h"
-#include "core/image/image_facts.h"
 #include "core/synthesis/state/control_map.h"
 
 namespace terrazzo {
-
-/// Throws Error about "exemplar_control" or "target" if they certainly do not fit the exemplar or one another.
-void require_control(Control::Mode mode, const ImageFacts& exemplar_control, const ImageFacts& target,
-                     std::optional<Size> exemplar);
 
 /// Control values of the exemplar or the output at one level: bytes, all controls' channels interleaved.
 struct ControlPlanes {

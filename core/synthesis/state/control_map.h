@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/image/image.h"
+#include "core/image/image_facts.h"
 
 namespace terrazzo {
 
@@ -25,5 +27,9 @@ struct Control {
   Match match = Match::histogram;  ///< only for values
   double leeway = 0;               ///< only for labels: output pixels by which borders between labels may move
 };
+
+/// Throws Error about "exemplar_control" or "target" if they certainly do not fit the exemplar or one another.
+void require_control(Control::Mode mode, const ImageFacts& exemplar_control, const ImageFacts& target,
+                     std::optional<Size> exemplar);
 
 }  // namespace terrazzo

@@ -38,6 +38,7 @@ float distance(const AppearanceVector* a, const AppearanceVector* b) {
 ExpansionProblem::ExpansionProblem(Field& f, const CorrectionLevel& l, bool edges_hide)
     : field(f),
       level(l),
+      plane(l.window.field()),
       along_edges(edges_hide),
       node(f.pixels.size(), untouched),
       edge_(float(expansion_tuning->edge)),
@@ -84,19 +85,6 @@ int64_t ExpansionProblem::mismatch(ExemplarPixel a, ExemplarPixel b, int side) c
   return int64_t(sum * float(mismatch_unit));
 }
 
-uint64_t ExpansionProblem::control_cost(int pixel, ExemplarPixel shown) const {
-  const int x = level.window.x(pixel % field.size.width) * level.block,
-            y = level.window.y(pixel / field.size.width) * level.block;
-  uint64_t sum = 0;
-  for (int j = 0; j < level.block; j++)
-    for (int i = 0; i < level.block; i++) {
-      int u = shown.x + i, v = shown.y + j;
-      level.exemplar.settle_inside(u, v);
-      sum += level.control->cost(u, v, level.control->target_near(x + i, y + j));
-    }
-  return sum;
-}
-
 float ExpansionProblem::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
   const bool along_row = std::abs(step) == 1;
   return edges_[along_row ? 0 : 1][size_t((step < 0 ? v + step : v) - level.exemplar.at(-1, -1))];
@@ -114,10 +102,9 @@ void Expansion::keep(int pixel) {
 }
 
 bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t unary_cost) {
-  const FixedPixels& fixed = problem_.level.fixed;
-  const ExemplarPixel above{uint16_t(shown.x / problem_.level.block), uint16_t(shown.y / problem_.level.block)};
-  if (problem_.node[size_t(pixel)] != ExpansionProblem::untouched || problem_.field.pixels[size_t(pixel)] == shown ||
-      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above) || problem_.raises_control_cost(pixel, shown))
+  const ExemplarPixel now = problem_.field.pixels[size_t(pixel)];
+  if (problem_.node[size_t(pixel)] != ExpansionProblem::untouched || now == shown ||
+      !problem_.level.may_change(pixel, now, shown))
     return false;
   problem_.node[size_t(pixel)] = int(free_.size());
   free_.push_back({pixel, shown, unary_cost});
@@ -143,10 +130,9 @@ void Expansion::apply() {
 void Expansion::connect(int n) {
   const Free& f = free_[size_t(n)];
   const ExemplarPixel kept = problem_.field.pixels[f.pixel];
-  const PlaneWindow& window = problem_.level.window;
   if (!problem_.unary_cost.empty()) cut_.prefer_source(n, problem_.unary_cost[f.pixel] - f.unary_cost);
   for (int side = 0; side < 4; side++) {
-    const int64_t m = pixel_beside(problem_.field.size, f.pixel, side, window.closed_x, window.closed_y);
+    const int64_t m = problem_.plane.beside(f.pixel, side);
     if (m < 0) continue;
     const ExemplarPixel other = problem_.field.pixels[size_t(m)];
     const int node = problem_.node[size_t(m)];

@@ -22,22 +22,16 @@ struct ExpansionProblem {
   /// continues a. The exemplar's last pixel is continued by itself.
   int64_t mismatch(ExemplarPixel a, ExemplarPixel b, int side) const;
 
-  /// Whether showing an exemplar pixel costs more under the controls than what a pixel shows.
-  bool raises_control_cost(int pixel, ExemplarPixel offered) const {
-    return level.control != nullptr && control_cost(pixel, offered) > control_cost(pixel, field.pixels[size_t(pixel)]);
-  }
-
   Field& field;
   const CorrectionLevel& level;
-  bool along_edges;  ///< whether edges hide mismatch
+  const Plane plane;  ///< the field's
+  bool along_edges;   ///< whether edges hide mismatch
   /// What it costs each pixel to show what it shows, whatever its neighbours show; empty: nothing.
   std::vector<int32_t> unary_cost{};
   std::vector<int> node;  ///< of each pixel in its expansion's graph
 
  private:
   void find_edges();
-  /// The cost of showing the exemplar pixel, or a block of them, under the controls.
-  uint64_t control_cost(int pixel, ExemplarPixel shown) const;
   /// How much an exemplar pixel differs from the one a step away.
   float edge_at(const AppearanceVector* v, ptrdiff_t step) const;
   bool continues(ExemplarPixel a, ExemplarPixel b, int side) const;
@@ -58,7 +52,7 @@ class Expansion {
   /// Excludes a pixel from the move.
   void keep(int pixel);
   /// Offers a pixel something else to show, at that unary cost in parts of an appearance unit. False if it has an offer
-  /// already, is excluded or fixed, or must not show that.
+  /// already, is excluded, or must not show that (CorrectionLevel::may_change).
   bool offer(int pixel, ExemplarPixel shown, int32_t unary_cost = 0);
   /// Makes the move and forgets what was offered.
   void apply();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/exemplar/uv_map.h"
@@ -14,26 +15,15 @@ struct Field {
   const ExemplarPixel& at(int x, int y) const { return pixels[size_t(y) * size.width + x]; }
 };
 
-/// The index of (x, y) in `pixels` of a field of that size. Positions beyond a border wrap around if the field tiles
-/// there; else -1.
-inline int64_t pixel_index(Size size, int x, int y, bool tile_x, bool tile_y) {
-  if (x < 0 || x >= size.width) {
-    if (!tile_x) return -1;
-    x = wrap(x, size.width);
-  }
-  if (y < 0 || y >= size.height) {
-    if (!tile_y) return -1;
-    y = wrap(y, size.height);
-  }
-  return int64_t{y} * size.width + x;
+/// An exemplar position in 32 bits, in the order of rows. Packed steps, which may be negative, can be added to it.
+constexpr uint32_t packed(int x, int y) {
+  return (uint32_t(y) << 16) + uint32_t(x);
 }
-
-/// Steps to the four neighbours of a pixel; side (s + 2) % 4 is opposite.
-inline constexpr int sides[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-
-/// The index of a pixel's neighbour on that side; -1 beyond a border.
-inline int64_t pixel_beside(Size size, int pixel, int side, bool tile_x, bool tile_y) {
-  return pixel_index(size, pixel % size.width + sides[side][0], pixel / size.width + sides[side][1], tile_x, tile_y);
+constexpr uint32_t packed(const ExemplarPixel& p) {
+  return packed(p.x, p.y);
+}
+constexpr ExemplarPixel unpacked(uint32_t position) {
+  return {uint16_t(position & 0xffff), uint16_t(position >> 16)};
 }
 
 }  // namespace terrazzo

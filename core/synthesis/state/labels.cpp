@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -87,15 +88,6 @@ double unknown_part(const Image& image, const std::vector<Label>& known) {
   return double(unknown) / double(image.size().area());
 }
 
-void require_comparable(const Image& exemplar, const Image& target) {
-  const auto is_grey_or_colour = [](const Image& i) { return i.channels() == 1 || i.channels() == 3; };
-  if (exemplar.channels() == target.channels() || (is_grey_or_colour(exemplar) && is_grey_or_colour(target))) return;
-  throw Error("target",
-              fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put \"grayscale\" "
-                          "before both, say",
-                          describe(exemplar), describe(target)));
-}
-
 /// Where a label's border may move: up to `leeway` from pixels of others, but not in parts so thin, or tips so sharp,
 /// that no disc of that radius fits.
 std::vector<uint8_t> movable_border(const std::vector<uint8_t>& is_label, Size size, double leeway) {
@@ -116,7 +108,7 @@ std::vector<uint8_t> movable_border(const std::vector<uint8_t>& is_label, Size s
 }  // namespace
 
 PaintedLabels painted_labels(const Control& control, Size exemplar, Size output, const Task& task) {
-  require_comparable(*control.exemplar, *control.target);
+  require_control(control.mode, facts_of(control.exemplar->info()), facts_of(control.target->info()), std::nullopt);
   const ImagePtr has = materialized(nearest_at_size(control.exemplar, exemplar), task);
   const std::vector<Label> labels = labels_in(*has);
   const ImagePtr wants = materialized(nearest_at_size(control.target, output), task);

@@ -32,12 +32,10 @@ class PhaseVotes {
       : lattice_(lattice), rows_(lattice.rank == 2 ? bins : 1), votes_(size_t(bins) * size_t(rows_)) {}
 
   void add(double x, double y) {
-    const Vector2d c = lattice_.cells({x, y});
-    const double across = fraction(c.x()), down = rows_ > 1 ? fraction(c.y()) : 0;
-    Votes& v = at(bin_of(across), bin_of(down));
+    const Vector2d c = lattice_.cells({x, y}), within{fraction(c.x()), rows_ > 1 ? fraction(c.y()) : 0};
+    Votes& v = at(bin_of(within.x()), bin_of(within.y()));
     v.count++;
-    v.across += across;
-    v.down += down;
+    v.sum += within;
   }
 
   /// The mean of the bins, next to one another, that have the most.
@@ -46,14 +44,13 @@ class PhaseVotes {
     for (int row = 0; row < rows_; row++)
       for (int column = 0; column < bins; column++)
         if (const Votes sum = around(column, row); sum.count > best.count) best = sum;
-    const double all = double(std::max<int64_t>(1, best.count));
-    return lattice_.at({best.across / all, best.down / all});
+    return lattice_.at(best.sum / double(std::max<int64_t>(1, best.count)));
   }
 
  private:
   struct Votes {
     int64_t count = 0;
-    double across = 0, down = 0;  // sums, in cells
+    Vector2d sum{0, 0};  // in cells
   };
   int bin_of(double cells) const { return std::min(bins - 1, int(cells * bins)); }
   Votes& at(int column, int row) { return votes_[size_t(wrap(row, rows_)) * bins + size_t(wrap(column, bins))]; }
@@ -66,8 +63,7 @@ class PhaseVotes {
         const Votes& v = at(x, y);
         sum.count += v.count;
         // Beyond the border a cell further.
-        sum.across += v.across + double(v.count) * (x < 0 ? -1 : x >= bins ? 1 : 0);
-        sum.down += v.down + double(v.count) * (y < 0 ? -1 : y >= rows_ ? 1 : 0);
+        sum.sum += v.sum + double(v.count) * Vector2d(x < 0 ? -1 : x >= bins ? 1 : 0, y < 0 ? -1 : y >= rows_ ? 1 : 0);
       }
     return sum;
   }

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "core/synthesis/state/field.h"
 #include "core/synthesis/state/plane_window.h"
 
 namespace terrazzo {
@@ -14,12 +13,11 @@ namespace terrazzo {
 class Rounds {
  public:
   /// The pixels of two jobs of one round lie more than three times `reach` apart.
-  Rounds(const Field& field, const PlaneWindow& window, int reach)
-      : size_(field.size),
-        window_(window),
+  Rounds(const Plane& field, int reach)
+      : width_(field.size.width),
         side_(reach + 1),
-        cells_{(size_.width + side_ - 1) / side_, (size_.height + side_ - 1) / side_},
-        last_(size_t(cells_.area()), 0) {}
+        cells_{{(width_ + side_ - 1) / side_, (field.size.height + side_ - 1) / side_}, field.tile_x, field.tile_y},
+        last_(size_t(cells_.size.area()), 0) {}
 
   void add(int job, std::span<const int> pixels) {
     int round = 0;
@@ -37,21 +35,18 @@ class Rounds {
   void for_each_near(std::span<const int> pixels, const Visit& visit) const {
     int previous = -1;
     for (const int i : pixels) {
-      const int cx = i % size_.width / side_, cy = i / size_.width / side_, cell = cy * cells_.width + cx;
+      const int cx = i % width_ / side_, cy = i / width_ / side_, cell = cy * cells_.size.width + cx;
       if (cell == previous) continue;
       previous = cell;
       for (int dy = -2; dy <= 2; dy++)
-        for (int dx = -2; dx <= 2; dx++) {
-          const int64_t n = pixel_index(cells_, cx + dx, cy + dy, window_.closed_x, window_.closed_y);
-          if (n >= 0) visit(size_t(n));
-        }
+        for (int dx = -2; dx <= 2; dx++)
+          if (const int64_t n = cells_.index(cx + dx, cy + dy); n >= 0) visit(size_t(n));
     }
   }
 
-  Size size_;
-  const PlaneWindow& window_;
+  int width_;
   int side_;
-  Size cells_;
+  Plane cells_;
   std::vector<int> last_;  // of each cell: the first round without a job near it
   std::vector<std::vector<int>> rounds_;
 };

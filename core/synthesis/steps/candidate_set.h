@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// The candidates of one pixel, told apart: first those that continue a neighbour, each with its coherence factor, then
-/// the others. An id packs an exemplar position, x in the lower half.
+/// the others. An id is a packed() exemplar position.
 class CandidateSet {
  public:
   static constexpr uint32_t no_id = ~uint32_t{0};  // no exemplar is so large
@@ -42,8 +42,6 @@ class CandidateSet {
     most_ = packed(size.width - 1 - keep_off, size.height - 1 - keep_off);
   }
 
-  static uint32_t packed(int x, int y) { return (uint32_t(y) << 16) + uint32_t(x); }
-  static uint32_t packed(const ExemplarPixel& p) { return packed(p.x, p.y); }
   /// Steps to a pixel itself and its eight neighbours.
   static constexpr int step(int n, int axis) {
     constexpr int steps[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};

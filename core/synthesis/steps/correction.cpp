@@ -1,7 +1,6 @@
 #include "core/synthesis/steps/correction.h"
 
 #include <atomic>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/base/geometry.h"
 #include "core/base/tuning.h"
-#include "core/synthesis/state/sub_pass.h"
 #include "core/synthesis/steps/correction_kernel.h"
 
 namespace terrazzo {
@@ -39,31 +37,29 @@ static_assert(2 * band_rows > correction_reach);
 /// Pixels of a sub-pass that are worked out but not yet in the field.
 class Corrected {
  public:
-  Corrected() = default;
-  explicit Corrected(const SubPass& part) : part_(part), pixels_(size_t(part.columns) * size_t(part.rows)) {}
+  explicit Corrected(const SubPass& part = {}) : part_(part), pixels_(size_t(part.columns) * size_t(part.rows)) {}
 
   void work_out(const CorrectionInputs& inputs, const Task& task) {
-    const int tiles_down = (part_->rows + tile_rows - 1) / tile_rows;
-    const int tiles = (part_->columns + tile_columns - 1) / tile_columns * tiles_down;
+    const int tiles_down = (part_.rows + tile_rows - 1) / tile_rows;
+    const int tiles = (part_.columns + tile_columns - 1) / tile_columns * tiles_down;
     std::atomic<int> done{0};
     tbb::parallel_for(0, tiles, [&](int i) {
       task.check();
       if (const int before = done++; before % tiles_told == 0) task.progress(double(before) / tiles);
       const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
-      correct_tile(inputs, *part_, intersect(tile, {0, 0, part_->columns, part_->rows}), pixels_.data());
+      correct_tile(inputs, part_, intersect(tile, {0, 0, part_.columns, part_.rows}), pixels_.data());
     });
   }
 
   void apply(Field& field) const {
-    if (!part_) return;
-    tbb::parallel_for(0, part_->rows, [&](int row) {
-      for (int i = 0; i < part_->columns; i++)
-        field.at(part_->x(i), part_->y(row)) = pixels_[size_t(row) * size_t(part_->columns) + size_t(i)];
+    tbb::parallel_for(0, part_.rows, [&](int row) {
+      for (int i = 0; i < part_.columns; i++)
+        field.at(part_.x(i), part_.y(row)) = pixels_[size_t(row) * size_t(part_.columns) + size_t(i)];
     });
   }
 
  private:
-  std::optional<SubPass> part_;
+  SubPass part_;
   std::vector<ExemplarPixel> pixels_;
 };
 

@@ -25,6 +25,7 @@ class PixelCorrector {
   explicit PixelCorrector(const CorrectionInputs& inputs)
       : field_(inputs.field),
         level_(inputs.level),
+        plane_(level_.window.field()),
         pass_(inputs.pass),
         usage_(inputs.usage),
         exemplar_(level_.exemplar.at(0, 0)),
@@ -73,10 +74,6 @@ class PixelCorrector {
 
  private:
   static constexpr int step(int n, int axis) { return CandidateSet::step(n, axis); }
-  template <typename... Of>
-  static uint32_t packed(const Of&... of) {
-    return CandidateSet::packed(of...);
-  }
 
   /// Whether all neighbours lie within the field.
   bool is_inside(int x, int y) const {
@@ -103,7 +100,7 @@ class PixelCorrector {
 
   /// The field's pixel at (x, y); null beyond the border of an output that does not tile.
   const ExemplarPixel* neighbour(int x, int y) const {
-    const int64_t i = pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
+    const int64_t i = plane_.index(x, y);
     return i < 0 ? nullptr : &field_.pixels[size_t(i)];
   }
 
@@ -284,6 +281,7 @@ class PixelCorrector {
 
   const Field& field_;
   const CorrectionLevel& level_;
+  const Plane plane_;  // the field's
   const CorrectionPass& pass_;
   const UsagePenalty& usage_;
   const AppearanceVector* exemplar_;  // its first pixel
@@ -320,8 +318,7 @@ HWY_ATTR void correct_pixels(const CorrectionInputs& inputs, const SubPass& part
   for (int row = tile.y; row < tile.bottom(); row++)
     for (int column = tile.x; column < tile.right(); column++) {
       const int x = part.x(column), y = part.y(row);
-      out[size_t(row) * part.columns + column] =
-          level.fixed.any() && level.fixed.at(level.window.index(x, y)) ? field.at(x, y) : corrector.best(x, y);
+      out[size_t(row) * part.columns + column] = level.is_fixed(x, y) ? field.at(x, y) : corrector.best(x, y);
     }
 }
 

@@ -1,31 +1,36 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "core/exemplar/appearance.h"
+#include "core/analysis/space/padded_level.h"
 
 /// Courses column by column, and what showing them costs.
 namespace terrazzo {
 
 /// The appearance of a column of a course: the mean of each of its strips, from one bed joint to the next.
 inline constexpr int course_strips = 4;
-using ColumnLook = std::array<AppearanceVector, course_strips>;
+using ColumnDescriptor = std::array<AppearanceVector, course_strips>;
 
-/// The squared distance of two columns, scaled.
-int32_t difference(const ColumnLook& a, const ColumnLook& b);
+/// The squared distance of two columns, in eighths of squared appearance units per strip.
+inline int32_t difference(const ColumnDescriptor& a, const ColumnDescriptor& b) {
+  int32_t sum = 0;
+  for (size_t s = 0; s < a.size(); s++) sum += squared_distance(a[s], b[s]) >> 3;
+  return sum;
+}
 
 /// A course of the exemplar, column by column.
 struct CourseColumns {
-  std::vector<ColumnLook> looks;
+  std::vector<ColumnDescriptor> looks;
   std::vector<uint8_t> usable;  ///< whether a result may show a column
   struct Cut {
     int column = 0;
     int32_t cost = 0;
-    int off_middle = 0;  ///< columns from the middle of the joint that it cuts; at most farthest_off_middle
+    int joint_offset = 0;  ///< columns from the middle of the joint that it cuts; at most farthest_joint_offset
   };
-  static constexpr int farthest_off_middle = 3;
+  static constexpr int farthest_joint_offset = 3;
   /// The columns before which a run may begin or end, and what either costs; ascending, perhaps one past the last.
   std::vector<Cut> cuts;
 };
@@ -46,8 +51,10 @@ struct ColumnPrice {
   int32_t price = 0;
 };
 
+inline constexpr size_t most_cuts = 65534;  ///< of all courses that are tried for one of the result
+
 /// A course of the exemplar that a result may show.
-struct TriedCourse {
+struct CandidateCourse {
   const CourseColumns* columns = nullptr;
   /// Element i: whether runs may begin whose shift is `least_shift + i`. A run's shift is the exemplar's column that it
   /// shows, or would show if it were extended, in the result's first column. Empty: all may.
@@ -68,7 +75,7 @@ struct CourseFit {
 };
 
 /// What a result's course costs beyond its look.
-struct CoursePriceList {
+struct CourseCosts {
   std::vector<ColumnPrice> columns{};
   /// Of a run that begins in each of the result's columns; empty: nothing.
   std::vector<int32_t> cuts{};

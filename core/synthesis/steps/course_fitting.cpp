@@ -1,31 +1,331 @@
 #include "core/synthesis/steps/course_fitting.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <utility>
 
-#include "core/synthesis/steps/course_path.h"
+#include "core/synthesis/steps/course_labels.h"
 
 namespace terrazzo {
 
 namespace {
 
+// Costs, of which a few may be added without overflow.
+constexpr int32_t impossible = 1 << 30;
+constexpr int32_t forbidden = 1 << 24;  // of a column that must not be shown
+
+/// The cheapest of several cuts.
+struct Cheapest {
+  int32_t cost = impossible;
+  CutIndex cut = no_cut;
+  void consider(const Cheapest& other) {
+    if (other.cost < cost) *this = other;
+  }
+};
+
+/// The cheapest cuts at which runs end, for each part of a joint that the next run may begin with.
+class CheapestEnds {
+ public:
+  explicit CheapestEnds(int32_t per_gap) : per_gap_(per_gap) {}
+  void consider(int32_t cost, CutIndex k, int joint_offset) {
+    if (cost >= impossible) return;
+    for (int to = -farthest; to <= farthest; to++)
+      by_part_[size_t(to + farthest)].consider({cost + per_gap_ * std::abs(joint_offset - to), k});
+  }
+  void consider(const CheapestEnds& other) {
+    for (size_t part = 0; part < by_part_.size(); part++) by_part_[part].consider(other.by_part_[part]);
+  }
+  const Cheapest& to(int joint_offset) const { return by_part_[size_t(joint_offset + farthest)]; }
+
+ private:
+  static constexpr int farthest = CourseColumns::farthest_joint_offset;
+  int32_t per_gap_;
+  std::array<Cheapest, 2 * farthest + 1> by_part_;
+};
+
+/// Values per label or cut for the last few columns of the result.
+template <class T>
+class Recent {
+ public:
+  Recent(int columns, size_t values, T value) : values_(size_t(columns), std::vector<T>(values, value)) {}
+  std::vector<T>& at(int x) { return values_[size_t(x) % values_.size()]; }
+  const std::vector<T>& at(int x) const { return values_[size_t(x) % values_.size()]; }
+
+ private:
+  std::vector<std::vector<T>> values_;
+};
+
+/// Finds the cheapest path through the result, from its first column to its last. A run is short until it reaches the
+/// minimum length, and complete from then on: only complete runs may end, but for the result's borders. As the minimum
+/// length is the same for all, short runs need no states of their own: what they cost is a difference of sums.
+class PathSearch {
+ public:
+  /// `shown` begins with the result's column `origin`, and columns count from there. `first`: the cut at which the path
+  /// begins, and also ends; no_cut: it begins and ends anywhere.
+  PathSearch(const CourseLabels& labels, const CourseFit& fit, const std::vector<ColumnDescriptor>& shown,
+             const CourseCosts& prices, int origin, CutIndex first)
+      : labels_(labels),
+        fit_(fit),
+        shown_(shown),
+        cut_prices_(prices.cuts),
+        origin_(origin),
+        first_(first),
+        cut_count_(labels.cuts.size()),
+        changes_(shown.size() + 1),
+        price_(size_t(labels.count()), 0),
+        column_cost_(size_t(labels.count()), 0),
+        complete_(size_t(labels.count()), impossible),
+        sums_(fit.shortest + 1, size_t(labels.count()), 0),
+        start_cost_(fit.shortest + 1, cut_count_, impossible),
+        previous_cut_(shown.size() * cut_count_, no_cut),
+        completes_(shown.size() * cut_count_, 0) {
+    for (const ColumnPrice& p : prices.columns) {
+      if (p.end <= 0 || p.begin >= length()) continue;
+      const auto label = size_t(labels.begin(p.course) + p.column);
+      changes_[size_t(std::max(0, p.begin))].push_back({label, p.price});
+      changes_[size_t(std::min(length(), p.end))].push_back({label, -p.price});
+    }
+    std::vector<int32_t> next(complete_.size());
+    for (int x = 0; x < length(); x++) {
+      for (const auto& [label, by] : changes_[size_t(x)]) price_[label] += by;
+      start_runs(x);
+      for (int c = 0; c < labels.courses(); c++) extend_runs(x, c, next);
+      complete_.swap(next);
+    }
+  }
+
+  /// Ascending; empty if there is no path.
+  std::vector<CourseRun> runs() const {
+    std::vector<CourseRun> out;
+    const std::optional<End> end = cheapest_end();
+    if (!end) return out;
+    int x = length() - 1, label = end->label;
+    CutIndex began = end->short_since;
+    int began_at = x - end->short_columns + 1;
+    for (;;) {
+      if (began == no_cut) {
+        const CutIndex k = labels_.completed_from[size_t(label)];
+        if (k != no_cut && completes_[size_t(x) * cut_count_ + k]) {
+          began = k;
+          began_at = x - fit_.shortest + 1;
+        } else if (x == 0) {
+          out.push_back(labels_.run(0, label));
+          break;
+        } else {
+          x--;
+          label -= fit_.step;
+          continue;
+        }
+      }
+      out.push_back(labels_.run(began_at, labels_.cuts[began].label));
+      const CutIndex from = began_at > 0 ? previous_cut_[size_t(began_at) * cut_count_ + began] : no_cut;
+      if (from == no_cut) break;
+      x = began_at - 1;
+      label = labels_.cuts[from].label - fit_.step;
+      began = no_cut;
+    }
+    std::ranges::reverse(out);
+    return out;
+  }
+
+ private:
+  struct End {
+    int label = 0;
+    CutIndex short_since = no_cut;  // the cut at which a run began that the result's border cuts short,
+    int short_columns = 0;          // and its columns
+  };
+
+  int length() const { return int(shown_.size()); }
+
+  /// The cost of showing each label of a course in column x.
+  void price_columns(int x, int course) {
+    const CourseColumns& columns = *labels_.course(course).columns;
+    const ColumnDescriptor shown = shown_[size_t(x)];
+    const auto begin = size_t(labels_.begin(course));
+    for (size_t u = 0; u < columns.looks.size(); u++) column_cost_[begin + u] = difference(shown, columns.looks[u]);
+    const double per_difference = fit_.per_difference;
+    const int32_t most = fit_.most_difference;
+    for (size_t u = 0; u < columns.looks.size(); u++) {
+      const int32_t cost = std::min(most, int32_t(column_cost_[begin + u] * per_difference)) + price_[begin + u];
+      column_cost_[begin + u] = columns.usable[u] ? cost : forbidden;
+    }
+  }
+
+  /// The cost of the cheapest path to each label of a course in column x, in a complete run.
+  void extend_runs(int x, int course, std::vector<int32_t>& next) {
+    price_columns(x, course);
+    const int begin = labels_.begin(course), end = labels_.end(course), step = fit_.step;
+    int64_t* sum = sums_.at(x).data();
+    const int64_t* sum_before = x > 0 ? sums_.at(x - 1).data() : nullptr;
+    const int first_after = x > 0 ? std::min(end, begin + step) : end;
+    for (int l = begin; l < first_after; l++) {
+      sum[l] = column_cost_[size_t(l)];
+      next[size_t(l)] = x == 0 && first_ == no_cut && in_phase(x, course, l) ? column_cost_[size_t(l)] : impossible;
+    }
+    for (int l = first_after; l < end; l++) {
+      const int32_t before = complete_[size_t(l - step)];
+      sum[l] = sum_before[l - step] + column_cost_[size_t(l)];
+      next[size_t(l)] = before < impossible ? before + column_cost_[size_t(l)] : impossible;
+    }
+    if (x >= fit_.shortest - 1) complete_runs(x, course, next);
+  }
+
+  /// Adds the runs that reach the minimum length in column x.
+  void complete_runs(int x, int course, std::vector<int32_t>& next) {
+    for (int k = labels_.cuts_begin(course); k < labels_.cuts_end(course); k++) {
+      const int label = labels_.cuts[size_t(k)].label + (fit_.shortest - 1) * fit_.step;
+      if (label >= labels_.end(course)) continue;
+      const int64_t cost = short_cost(x, CutIndex(k), fit_.shortest);
+      if (cost >= next[size_t(label)]) continue;
+      next[size_t(label)] = int32_t(cost);
+      completes_[size_t(x) * cut_count_ + size_t(k)] = 1;
+    }
+  }
+
+  /// The cost of a path whose last run began at a cut and has shown `columns` columns, up to x.
+  int64_t short_cost(int x, CutIndex k, int columns) const {
+    const int32_t start = start_cost_.at(x - columns + 1)[k];
+    if (start >= impossible) return impossible;
+    const CourseLabels::Cut& cut = labels_.cuts[k];
+    const int before = cut.label - fit_.step;
+    const bool has_before = before >= labels_.begin(cut.course) && x >= columns;
+    return start + sums_.at(x)[size_t(cut.label + (columns - 1) * fit_.step)] -
+           (has_before ? sums_.at(x - columns)[size_t(before)] : 0);
+  }
+
+  /// The cost of a path whose last run ends before a cut, and of that cut.
+  int32_t end_cost(size_t k) const {
+    const CourseLabels::Cut& cut = labels_.cuts[k];
+    const int last = cut.label - fit_.step;
+    const bool possible = last >= labels_.begin(cut.course) && complete_[size_t(last)] < impossible;
+    return possible ? complete_[size_t(last)] + cut.cost : impossible;
+  }
+
+  /// Starts runs in column x: in another course, or forward or far back in the course of the run before.
+  void start_runs(int x) {
+    std::vector<int32_t>& start = start_cost_.at(x);
+    if (x == 0) {
+      std::ranges::fill(start, impossible);
+      if (first_ != no_cut) start[first_] = labels_.cuts[first_].cost;
+      return;
+    }
+    std::vector<int32_t> ends(cut_count_);
+    for (size_t k = 0; k < cut_count_; k++) ends[k] = end_cost(k);
+    // The cheapest ends in each course, in those before it, and in those behind it.
+    const auto courses = size_t(labels_.courses());
+    std::vector<CheapestEnds> of(courses, CheapestEnds(fit_.per_gap)), before = of, behind = of;
+    for (int c = 0; c < labels_.courses(); c++)
+      for (int k = labels_.cuts_begin(c); k < labels_.cuts_end(c); k++) consider_end(k, ends, of[size_t(c)]);
+    for (size_t c = 1; c < courses; c++) {
+      before[c] = before[c - 1];
+      before[c].consider(of[c - 1]);
+      behind[courses - 1 - c] = behind[courses - c];
+      behind[courses - 1 - c].consider(of[courses - c]);
+    }
+    for (int c = 0; c < labels_.courses(); c++) start_in_course(x, c, before[size_t(c)], behind[size_t(c)], ends);
+  }
+  void consider_end(int k, const std::vector<int32_t>& ends, CheapestEnds& to) const {
+    to.consider(ends[size_t(k)], CutIndex(k), labels_.cuts[size_t(k)].joint_offset);
+  }
+
+  void start_in_course(int x, int course, const CheapestEnds& before, const CheapestEnds& behind,
+                       const std::vector<int32_t>& ends) {
+    const int begin = labels_.cuts_begin(course), end = labels_.cuts_end(course);
+    const int32_t price = cut_prices_.empty() ? 0 : cut_prices_[size_t(x)];
+    std::vector<Cheapest> from(size_t(end - begin));
+    CheapestEnds onward(fit_.per_gap), back(fit_.per_gap);
+    for (int k = begin; k < end; k++) {
+      Cheapest& best = from[size_t(k - begin)];
+      for (const CheapestEnds* l : {&before, &behind, &std::as_const(onward)})
+        best.consider(l->to(labels_.cuts[size_t(k)].joint_offset));
+      consider_end(k, ends, onward);
+    }
+    for (int k = end - 1, far = end - 1; k >= begin; k--) {
+      for (; far >= begin && goes_back(far, k); far--) consider_end(far, ends, back);
+      from[size_t(k - begin)].consider(back.to(labels_.cuts[size_t(k)].joint_offset));
+    }
+    for (int k = begin; k < end; k++) {
+      const Cheapest& c = from[size_t(k - begin)];
+      const CourseLabels::Cut& cut = labels_.cuts[size_t(k)];
+      const bool begins = c.cost < impossible && cut.label < labels_.end(course) && in_phase(x, course, cut.label);
+      start_cost_.at(x)[size_t(k)] = begins ? c.cost + cut.cost + price : impossible;
+      previous_cut_[size_t(x) * cut_count_ + size_t(k)] = c.cut;
+    }
+  }
+  bool in_phase(int x, int course, int label) const {
+    return labels_.course(course).fits(label - labels_.begin(course) - (origin_ + x) * fit_.step);
+  }
+  bool goes_back(int from, int to) const {
+    return labels_.cuts[size_t(from)].label - labels_.cuts[size_t(to)].label >= fit_.least_step_back;
+  }
+
+  std::optional<End> cheapest_end() const {
+    std::optional<End> out;
+    int64_t least = impossible;
+    const auto consider = [&](int64_t cost, const End& end) {
+      if (cost >= least) return;
+      least = cost;
+      out = end;
+    };
+    if (first_ != no_cut) {
+      const CourseLabels::Cut& first = labels_.cuts[first_];
+      for (size_t k = 0; k < cut_count_; k++) {
+        const CourseLabels::Cut& cut = labels_.cuts[k];
+        if (cut.course != first.course || cut.label <= first.label || goes_back(int(k), first_))
+          consider(end_cost(k) + int64_t{fit_.per_gap} * std::abs(cut.joint_offset - first.joint_offset),
+                   {cut.label - fit_.step});
+      }
+      return out;
+    }
+    for (int l = 0; l < labels_.count(); l++) consider(complete_[size_t(l)], {l});
+    for (int columns = 1; columns < std::min(fit_.shortest, length()); columns++)
+      for (size_t k = 0; k < cut_count_; k++) {
+        const CourseLabels::Cut& cut = labels_.cuts[k];
+        const int label = cut.label + (columns - 1) * fit_.step;
+        if (label < labels_.end(cut.course))
+          consider(short_cost(length() - 1, CutIndex(k), columns), {label, CutIndex(k), columns});
+      }
+    return out;
+  }
+
+  const CourseLabels& labels_;
+  const CourseFit& fit_;
+  const std::vector<ColumnDescriptor>& shown_;
+  const std::vector<int32_t>& cut_prices_;
+  int origin_;
+  CutIndex first_;
+  size_t cut_count_;
+  std::vector<std::vector<std::pair<size_t, int32_t>>> changes_;  // of prices, in each column of the result
+  std::vector<int32_t> price_;                                    // of each label, in the column at hand
+  std::vector<int32_t> column_cost_;                              // of showing each label there
+  std::vector<int32_t> complete_;       // the cost of the cheapest path to each label in a complete run
+  Recent<int64_t> sums_;                // of column costs along labels that continue one another
+  Recent<int32_t> start_cost_;          // the cost of the cheapest path that starts a run at each cut
+  std::vector<CutIndex> previous_cut_;  // of each column and cut, at which a run starts: the one before it
+  std::vector<uint8_t> completes_;      // of each column and cut: whether its run is the cheapest once it is complete
+};
+
 /// Runs of a result that wraps. In a path twice around, a cut in the middle does not depend on the ends. A second path
 /// begins and ends there.
 std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& fit,
-                                   const std::vector<ColumnLook>& shown, const CoursePriceList& prices) {
+                                   const std::vector<ColumnDescriptor>& shown, const CourseCosts& prices) {
   const int length = int(shown.size());
   const auto path = [&](int from, int times, CutIndex first) {
-    std::vector<ColumnLook> looks;
-    for (int x = 0; x < times * length; x++) looks.push_back(shown[size_t((x + from) % length)]);
-    CoursePriceList moved;
+    std::vector<ColumnDescriptor> looks;
+    CourseCosts moved;
+    for (int x = from; x < from + times * length; x++) {
+      looks.push_back(shown[size_t(x % length)]);
+      if (!prices.cuts.empty()) moved.cuts.push_back(prices.cuts[size_t(x % length)]);
+    }
     for (int turn = -1; turn <= times; turn++)
       for (ColumnPrice p : prices.columns) {
         p.begin += turn * length - from;
         p.end += turn * length - from;
         moved.columns.push_back(p);
       }
-    if (!prices.cuts.empty())
-      for (int x = 0; x < times * length; x++) moved.cuts.push_back(prices.cuts[size_t((x + from) % length)]);
-    return cheapest_path(labels, fit, looks, moved, from, first);
+    return PathSearch(labels, fit, looks, moved, from, first).runs();
   };
   const std::vector<CourseRun> twice = path(0, 2, no_cut);
   const auto middle = std::ranges::find_if(twice, [&](const CourseRun& r) { return r.begin >= length / 2; });
@@ -42,10 +342,12 @@ std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& 
 
 }  // namespace
 
-std::vector<CourseRun> fitting_runs(const std::vector<ColumnLook>& shown, const std::vector<TriedCourse>& courses,
-                                    const CoursePriceList& prices, const CourseFit& fit) {
+std::vector<CourseRun> fitting_runs(const std::vector<ColumnDescriptor>& shown,
+                                    const std::vector<CandidateCourse>& courses, const CourseCosts& prices,
+                                    const CourseFit& fit) {
   const CourseLabels labels(courses, fit);
-  return fit.closed ? runs_around(labels, fit, shown, prices) : cheapest_path(labels, fit, shown, prices, 0, no_cut);
+  return fit.closed ? runs_around(labels, fit, shown, prices)
+                    : PathSearch(labels, fit, shown, prices, 0, no_cut).runs();
 }
 
 }  // namespace terrazzo

@@ -7,7 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/tuning.h"
-#include "core/synthesis/steps/course_path.h"
+#include "core/synthesis/steps/course_fitting.h"
 #include "core/synthesis/steps/course_prices.h"
 #include "core/synthesis/steps/exemplar_courses.h"
 #include "core/synthesis/steps/result_courses.h"
@@ -58,7 +58,7 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
          "not measured: a step of less than a row is not seen"},
         {&CourseLayoutTuning::most_columns, "most_columns", "columns of the exemplar",
          "tried for one course. Higher: large exemplars are used fully; costs time and memory",
-         "not measured: bounds time and memory", 1, no_cut / 2 - 1},
+         "not measured: bounds time and memory", 1, int(most_cuts) / 2 - 1},
         {&CourseLayoutTuning::most_off, "most_off", "pixels of the coursing's level",
          "how far out of place blocks may be to stay. Higher: more stays, and bed joints may jog; lower: courses are "
          "level",
@@ -71,16 +71,16 @@ class CourseLayout {
   CourseLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
                const LatticePhase& phase, const Task& task)
       : field_(field),
-        source_{level.exemplar, level.block},
+        level_(level),
         appearance_(appearance),
         looks_(appearance.levels()[size_t(coursing.level)]),
         coursing_(coursing),
         phase_(phase),
         task_(task),
-        result_(field, level, source_, coursing, phase),
-        columns_(exemplar_courses(looks_, coursing, source_, result_.step())),
+        result_(field, level, coursing, phase),
+        columns_(exemplar_courses(looks_, coursing, level.exemplar, result_.step())),
         height_(mean_height(coursing)),
-        prices_(result_, source_, coursing, columns_, height_) {
+        prices_(result_, coursing, columns_, height_) {
     const int step = result_.step();
     fit_.step = step;
     fit_.shortest = std::max(1, int(course_layout_tuning->shortest_run * height_ / step));
@@ -120,24 +120,20 @@ class CourseLayout {
     ResultCourse& course = result_.all[size_t(at)];
     const std::vector<int> tried = tried_for(course);
     if (tried.empty()) return;
-    std::vector<TriedCourse> courses;
+    std::vector<CandidateCourse> courses;
     for (const int c : tried) courses.push_back(in_phase(c, course));
-    course.runs = fitting_runs(looks_of(course), courses, prices_of(at, tried), fit_);
+    CourseCosts prices = prices_.of(at, tried);
+    // Where a lattice knows the bond, it says which joints stand above one another.
+    if (appearance_.lattice().rank == 2) prices.cuts.clear();
+    course.runs = fitting_runs(looks_of(course), courses, prices, fit_);
     for (CourseRun& r : course.runs) r.course = tried[size_t(r.course)];
     for (size_t i = 0; i < course.runs.size(); i++) show(course.runs[i], result_.end_of(course, i), course);
   }
 
-  /// Where a lattice knows the bond, it says which joints stand above one another.
-  CoursePriceList prices_of(int at, const std::vector<int>& tried) const {
-    CoursePriceList prices = prices_.of(at, tried);
-    if (appearance_.lattice().rank == 2) prices.cuts.clear();
-    return prices;
-  }
-
   /// What each column of a course shows.
-  std::vector<ColumnLook> looks_of(const ResultCourse& course) const {
+  std::vector<ColumnDescriptor> looks_of(const ResultCourse& course) const {
     const int blocks = result_.blocks(), scale = result_.scale();
-    std::vector<ColumnLook> looks;
+    std::vector<ColumnDescriptor> looks;
     for (int x = 0; x < result_.length(); x++) {
       StripMeans means(course.begin, course.end);
       for (int row = course.first_row(); row < course.end_row(); row++)
@@ -171,12 +167,12 @@ class CourseLayout {
 
   /// A course of the exemplar with the shifts that are in phase: bricks of a lattice stay where the lattice has them,
   /// as far as it is certain.
-  TriedCourse in_phase(int c, const ResultCourse& course) const {
-    TriedCourse out{&columns_[size_t(c)]};
+  CandidateCourse in_phase(int c, const ResultCourse& course) const {
+    CandidateCourse out{&columns_[size_t(c)]};
     if (appearance_.lattice().rank < 2) return out;
     const int scale = result_.scale();
     const double across = (coursing_.courses[size_t(c)].begin + coursing_.courses[size_t(c)].end) / 2 * scale;
-    const auto [x, y] = result_.axes().at(0, int(std::floor(course.middle() * source_.block + 0.5)));
+    const auto [x, y] = result_.axes().at(0, int(std::floor(course.middle() * level_.block + 0.5)));
     out.least_shift = -3 * result_.length() * result_.step();  // fitting_runs() looks up to three times around
     for (int shift = out.least_shift; shift < int(out.columns->looks.size()); shift++) {
       const auto [u, v] = coursing_.axes.at(shift * scale, int(std::floor(across + 0.5)));
@@ -197,9 +193,9 @@ class CourseLayout {
     const int scale = result_.scale();
     const ExemplarCourse& of = coursing_.courses[size_t(run.course)];
     const int middle = (run.begin + end) / 2 * result_.blocks(),
-              along = run.from * scale - run.begin * result_.blocks() * source_.block;
-    const double up = (of.begin + of.end) / 2 * scale + coursing_.axes.rise * (middle * source_.block + along) -
-                      (course.middle() + result_.axes().rise * middle) * source_.block;
+              along = run.from * scale - run.begin * result_.blocks() * level_.block;
+    const double up = (of.begin + of.end) / 2 * scale + coursing_.axes.rise * (middle * level_.block + along) -
+                      (course.middle() + result_.axes().rise * middle) * level_.block;
     const Offset centred{along, int(std::floor(up + 0.5))};
     std::map<Offset, int> votes;
     int blocks = 0;
@@ -227,12 +223,12 @@ class CourseLayout {
     result_.for_each_block(run, end, course, [&](size_t i, int a, int row) {
       int x = a + offset.along, y = row + offset.across;
       if (result_.axes().upright) std::swap(x, y);
-      if (source_.holds(x, y)) field_.pixels[i] = {uint16_t(x), uint16_t(y)};
+      if (level_.holds(x, y)) field_.pixels[i] = {uint16_t(x), uint16_t(y)};
     });
   }
 
   Field& field_;
-  BlockSource source_;
+  const CorrectionLevel& level_;
   const Appearance& appearance_;
   const AppearanceLevel& looks_;
   const Coursing& coursing_;

@@ -42,8 +42,7 @@ const Tunable<CoursePricesTuning> course_prices_tuning(
          "not measured: well within the neighbour, past its bed joint"},
         {&CoursePricesTuning::middle_tolerance, "middle_tolerance", "course heights",
          "how far off the middle of an exemplar's course still counts as continued. Higher: more does; lower: only "
-         "what "
-         "is level",
+         "what is level",
          "not measured: at one half courses would be confused"},
         {&CoursePricesTuning::even, "even", "mean differences per column",
          "higher: all bricks show equally often, and rare ones come back; lower: bricks fit better", "course_layout", 0,
@@ -82,10 +81,9 @@ std::vector<float> smoothed(const std::vector<float>& values, int reach, float u
 
 }  // namespace
 
-CoursePrices::CoursePrices(const ResultCourses& result, const BlockSource& source, const Coursing& coursing,
+CoursePrices::CoursePrices(const ResultCourses& result, const Coursing& coursing,
                            const std::vector<CourseColumns>& columns, double height)
     : result_(result),
-      source_(source),
       coursing_(coursing),
       columns_(columns),
       height_(height / result.step()),
@@ -120,8 +118,8 @@ void CoursePrices::count_use() {
   }
 }
 
-CoursePriceList CoursePrices::of(int at, const std::vector<int>& tried) const {
-  CoursePriceList prices;
+CourseCosts CoursePrices::of(int at, const std::vector<int>& tried) const {
+  CourseCosts prices;
   add_repeats(at, tried, prices.columns);
   add_continued(result_.all[size_t(at)], tried, prices.columns);
   add_use(tried, prices.columns);
@@ -180,7 +178,7 @@ void CoursePrices::add_continued(const ResultCourse& course, const std::vector<i
     for (int x = 0; x < result_.length(); x++) {
       const ExemplarPixel* p = result_.shown(x * result_.blocks(), int(std::floor(course.middle() + away)));
       if (!p) continue;
-      const double across = (coursing_.axes.across(p->x, p->y) - away * source_.block) / scale;
+      const double across = (coursing_.axes.across(p->x, p->y) - away * result_.block()) / scale;
       for (size_t c = 0; c < tried.size(); c++) {
         const ExemplarCourse& e = coursing_.courses[size_t(tried[c])];
         if (std::abs(across - (e.begin + e.end) / 2) < (e.end - e.begin) * course_prices_tuning->middle_tolerance)

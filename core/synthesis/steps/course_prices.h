@@ -12,8 +12,8 @@ namespace terrazzo {
 class CoursePrices {
  public:
   /// `columns`: of the exemplar's courses; `height`: their mean height, in pixels of the coursing's level.
-  CoursePrices(const ResultCourses& result, const BlockSource& source, const Coursing& coursing,
-               const std::vector<CourseColumns>& columns, double height);
+  CoursePrices(const ResultCourses& result, const Coursing& coursing, const std::vector<CourseColumns>& columns,
+               double height);
 
   /// How many courses away repeats are penalised.
   int reach() const;
@@ -21,7 +21,7 @@ class CoursePrices {
   void count_use();
   /// The prices of course number `at`. `tried`: the exemplar's courses that it may show; prices name them by their
   /// place in that list.
-  CoursePriceList of(int at, const std::vector<int>& tried) const;
+  CourseCosts of(int at, const std::vector<int>& tried) const;
 
  private:
   void add_repeats(int at, const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;
@@ -30,7 +30,6 @@ class CoursePrices {
   std::vector<int32_t> cuts(int at) const;
 
   const ResultCourses& result_;
-  const BlockSource& source_;
   const Coursing& coursing_;
   const std::vector<CourseColumns>& columns_;
   double height_;                        // in columns of the result

@@ -36,6 +36,7 @@ void complete_elements(Field& field, const CorrectionLevel& level, const Appeara
         shown.push_back(s);
     }
   std::ranges::stable_sort(shown, [](const ShownElement& a, const ShownElement& b) { return a.blocks > b.blocks; });
+  const Plane plane = level.window.field();
   std::vector<uint8_t> taken(field.pixels.size());
   for (const ShownElement& s : shown) {
     const ElementShape& shape = shapes[s.placed.element];
@@ -43,10 +44,10 @@ void complete_elements(Field& field, const CorrectionLevel& level, const Appeara
     for (int y = shape.box.y; y < shape.box.bottom(); y++)
       for (int x = shape.box.x; x < shape.box.right(); x++) {
         if (double(shape.depth(x, y)) < element_cores_tuning->rim) continue;
-        const int64_t at = pixel_index(field.size, left + x, top + y, level.window.closed_x, level.window.closed_y);
+        const int64_t at = plane.index(left + x, top + y);
         if (at < 0 || taken[size_t(at)]) continue;
         taken[size_t(at)] = 1;
-        if (places.is_kept(int(at % field.size.width), int(at / field.size.width))) continue;
+        if (level.is_fixed(int(at % field.size.width), int(at / field.size.width))) continue;
         field.pixels[size_t(at)] =
             places.inside((left + x) * level.block + s.placed.shift_x, (top + y) * level.block + s.placed.shift_y);
       }

@@ -25,24 +25,24 @@ Rect unfilled_part(const std::vector<uint8_t>& filled, Size size, const Rect& ti
 
 }  // namespace
 
-std::vector<Hole> find_holes(const std::vector<uint8_t>& filled, Size size, bool closed_x, bool closed_y, double least,
-                             int farthest) {
+std::vector<Hole> find_holes(const std::vector<uint8_t>& filled, const Plane& plane, double least, int farthest) {
+  const Size size = plane.size;
   if (std::ranges::find(filled, 1) == filled.end()) return {{size.width / 2, size.height / 2}};
   std::vector<Hole> out;
   constexpr int side = 256;
   for (int tile_y = 0; tile_y < size.height; tile_y += side)
     for (int tile_x = 0; tile_x < size.width; tile_x += side) {
       const Rect part = unfilled_part(filled, size, intersect({tile_x, tile_y, side, side}, whole(size)));
-      if (part.width <= 0) continue;
+      if (part.empty()) continue;
       const Rect around = grown(part, farthest);
-      const int left = closed_x ? around.x : std::max(0, around.x);
-      const int right = closed_x ? around.right() : std::min(size.width, around.right());
-      const int top = closed_y ? around.y : std::max(0, around.y);
-      const int bottom = closed_y ? around.bottom() : std::min(size.height, around.bottom());
+      const int left = plane.tile_x ? around.x : std::max(0, around.x);
+      const int right = plane.tile_x ? around.right() : std::min(size.width, around.right());
+      const int top = plane.tile_y ? around.y : std::max(0, around.y);
+      const int bottom = plane.tile_y ? around.bottom() : std::min(size.height, around.bottom());
       std::vector<uint8_t> near;
       near.reserve(size_t(right - left) * size_t(bottom - top));
       for (int y = top; y < bottom; y++)
-        for (int x = left; x < right; x++) near.push_back(filled[size_t(pixel_index(size, x, y, closed_x, closed_y))]);
+        for (int x = left; x < right; x++) near.push_back(filled[size_t(plane.index(x, y))]);
       const std::vector<int64_t> distance = squared_distances(near, {right - left, bottom - top}, false);
       for (int y = part.y; y < part.bottom(); y++)
         for (int x = part.x; x < part.right(); x++) {

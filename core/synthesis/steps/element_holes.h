@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/geometry.h"
+#include "core/synthesis/state/plane_window.h"
 
 namespace terrazzo {
 
@@ -13,10 +13,9 @@ struct Hole {
   int64_t squared = 0;  ///< of its radius, in pixels
 };
 
-/// Every pixel that lies farther than `least` pixels from what is filled, those farthest from it first, then row by
-/// row. Distances count up to `farthest`. If nothing is filled there is one hole, in the middle. `filled`: row by row;
-/// `closed_x`, `closed_y`: it wraps around. Thread-safe.
-std::vector<Hole> find_holes(const std::vector<uint8_t>& filled, Size size, bool closed_x, bool closed_y, double least,
-                             int farthest);
+/// Every pixel of a plane that lies farther than `least` pixels from what is filled, those farthest from it first, then
+/// row by row. Distances count up to `farthest`. If nothing is filled there is one hole, in the middle. `filled`: row
+/// by row; Thread-safe.
+std::vector<Hole> find_holes(const std::vector<uint8_t>& filled, const Plane& plane, double least, int farthest);
 
 }  // namespace terrazzo

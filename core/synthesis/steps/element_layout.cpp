@@ -44,12 +44,11 @@ class ElementLayout {
  public:
   ElementLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Lattice* lattice)
       : field_(field),
-        block_(level.block),
         level_(level),
         lattice_(lattice),
         places_(field, level, appearance, lattice),
         shapes_(places_.shapes()),
-        packing_(shapes_, field.size, level.window.closed_x, level.window.closed_y) {}
+        packing_(shapes_, level.window.field()) {}
 
   void lay(const Task& task) {
     Places places = places_.shown();
@@ -84,7 +83,7 @@ class ElementLayout {
     std::vector<uint8_t> out(field_.pixels.size());
     for (int row = 0; row < field_.size.height; row++)
       for (int column = 0; column < field_.size.width; column++) {
-        if (!places_.is_kept(column, row)) continue;
+        if (!level_.is_fixed(column, row)) continue;
         const PlacedElement at = places_.element_at(column, row);
         const ShownElement* s = places_.find(places[size_t(at.element)], at);
         out[size_t(row) * size_t(field_.size.width) + size_t(column)] = !s || !s->placed.stays;
@@ -95,7 +94,7 @@ class ElementLayout {
   /// Whether an element lies where the lattice that it keeps to has it, give or take seams.
   bool is_in_phase(const PlacedElement& p) const {
     if (!lattice_) return true;
-    const int x = shapes_.column_of(p) * block_, y = shapes_.row_of(p) * block_;
+    const int x = shapes_.column_of(p) * level_.block, y = shapes_.row_of(p) * level_.block;
     int u = x + p.shift_x, v = y + p.shift_y;
     level_.phase.snap(x, y, u, v);
     return std::max(std::abs(u - x - p.shift_x), std::abs(v - y - p.shift_y)) <= element_layout_tuning->in_phase;
@@ -118,21 +117,21 @@ class ElementLayout {
   bool in_grid() const { return lattice_ && lattice_->rank == 2; }
 
   void show(int column, int row) {
-    const ElementPacking::Place& place = packing_.at(column, row);
-    if (place.placed < 0 || places_.is_kept(column, row) || (in_grid() && !packing_.is_filled(place))) return;
+    const ElementPacking::Place& place = *packing_.find(column, row);
+    if (place.placed < 0 || level_.is_fixed(column, row) || (in_grid() && !packing_.is_filled(place))) return;
     const PlacedElement& p = packing_.placed()[size_t(place.placed)];
     int x = column - shapes_.column_of(p), y = row - shapes_.row_of(p);
-    if (level_.window.closed_x) x = wrap(x + field_.size.width / 2, field_.size.width) - field_.size.width / 2;
-    if (level_.window.closed_y) y = wrap(y + field_.size.height / 2, field_.size.height) - field_.size.height / 2;
+    if (level_.window.closed_x) x = nearest_to_zero(x, field_.size.width);
+    if (level_.window.closed_y) y = nearest_to_zero(y, field_.size.height);
     const ElementWarp::At to = warps_[size_t(place.placed)]({double(x), double(y)});
     // What is not moved keeps its shift, which need not be whole blocks.
-    const int u = (x + shapes_.column_of(p)) * block_ + p.shift_x + int(std::floor((to.x - x) * block_ + 0.5));
-    const int v = (y + shapes_.row_of(p)) * block_ + p.shift_y + int(std::floor((to.y - y) * block_ + 0.5));
+    const int u =
+        (x + shapes_.column_of(p)) * level_.block + p.shift_x + int(std::floor((to.x - x) * level_.block + 0.5));
+    const int v = (y + shapes_.row_of(p)) * level_.block + p.shift_y + int(std::floor((to.y - y) * level_.block + 0.5));
     field_.at(column, row) = places_.inside(u, v);
   }
 
   Field& field_;
-  int block_;
   const CorrectionLevel& level_;
   const Lattice* lattice_;
   ElementPlaces places_;

@@ -85,15 +85,11 @@ constexpr float farthest = 1e6f;  // of what is kept, where nothing is
 
 }  // namespace
 
-ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
-    : shapes_(shapes),
-      size_(size),
-      closed_x_(closed_x),
-      closed_y_(closed_y),
-      tolerance_(pack_tuning->tolerance * shapes.typical_side) {}
+ElementPacking::ElementPacking(const ElementShapes& shapes, const Plane& plane)
+    : shapes_(shapes), plane_(plane), tolerance_(pack_tuning->tolerance * shapes.typical_side) {}
 
 void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
-  kept_depth_ = signed_distances(blocks, size_, closed_x_ && closed_y_, farthest);
+  kept_depth_ = signed_distances(blocks, plane_.size, plane_.tile_x && plane_.tile_y, farthest);
   for (float& d : kept_depth_) d = -d;
 }
 
@@ -102,16 +98,10 @@ template <typename Visit>
 void ElementPacking::for_blocks(const PlacedElement& p, Visit visit) const {
   const ElementShape& shape = shapes_[p.element];
   const int left = shapes_.column_of(p) + shape.box.x, top = shapes_.row_of(p) + shape.box.y;
-  const int first_y = closed_y_ ? 0 : std::max(0, -top);
-  const int end_y = closed_y_ ? shape.box.height : std::min(shape.box.height, size_.height - top);
-  const int first_x = closed_x_ ? 0 : std::max(0, -left);
-  const int end_x = closed_x_ ? shape.box.width : std::min(shape.box.width, size_.width - left);
-  for (int y = first_y; y < end_y; y++) {
-    const float* depths = &shape.depths[size_t(y) * size_t(shape.box.width)];
-    const int64_t row = int64_t{closed_y_ ? wrap(top + y, size_.height) : top + y} * size_.width;
-    for (int x = first_x; x < end_x; x++)
-      visit(size_t(row + (closed_x_ ? wrap(left + x, size_.width) : left + x)), depths[x]);
-  }
+  const float* depth = shape.depths.data();
+  for (int y = 0; y < shape.box.height; y++)
+    for (int x = 0; x < shape.box.width; x++, depth++)
+      if (const int64_t i = plane_.index(left + x, top + y); i >= 0) visit(size_t(i), *depth);
 }
 
 void ElementPacking::paint(size_t placed) {
@@ -128,7 +118,8 @@ void ElementPacking::paint(size_t placed) {
 }
 
 void ElementPacking::paint_all() {
-  places_.assign(size_t(size_.area()), {-1, Depth(ElementShape::unknown_depth), Depth(ElementShape::unknown_depth)});
+  places_.assign(size_t(plane_.size.area()),
+                 {-1, Depth(ElementShape::unknown_depth), Depth(ElementShape::unknown_depth)});
   for (size_t i = 0; i < kept_depth_.size(); i++) places_[i].depth = Depth(kept_depth_[i]);
   of_element_.assign(shapes_.all.size(), {});
   for (size_t i = 0; i < placed_.size(); i++) {
@@ -150,7 +141,7 @@ void ElementPacking::measure_clear() {
 }
 
 /// The most covered first, and none of its neighbours along with it: they are seen more once it is gone.
-void ElementPacking::take_away_covered(const Task& task) {
+void ElementPacking::remove_overlapped(const Task& task) {
   for (int round = 0; round < pack_tuning->rounds; round++) {
     task.check();
     measure_clear();
@@ -180,8 +171,7 @@ std::vector<Hole> ElementPacking::holes() const {
   std::vector<uint8_t> filled(places_.size());
   std::ranges::transform(places_, filled.begin(), [&](const Place& p) { return uint8_t(is_filled(p)); });
   const double least = std::max(1.0, pack_tuning->hole * shapes_.typical_side);
-  return find_holes(filled, size_, closed_x_, closed_y_, least,
-                    int(pack_tuning->farthest_filled * shapes_.typical_side) + 1);
+  return find_holes(filled, plane_, least, int(pack_tuning->farthest_filled * shapes_.typical_side) + 1);
 }
 
 /// How often an element is seen around a place, the nearer the more.
@@ -190,8 +180,8 @@ double ElementPacking::seen_around(int element, int column, int row) const {
   double sum = 0;
   for (const size_t i : of_element_[size_t(element)]) {
     int x = std::abs(shapes_.column_of(placed_[i]) - column), y = std::abs(shapes_.row_of(placed_[i]) - row);
-    if (closed_x_) x = std::min(wrap(x, size_.width), size_.width - wrap(x, size_.width));
-    if (closed_y_) y = std::min(wrap(y, size_.height), size_.height - wrap(y, size_.height));
+    if (plane_.tile_x) x = std::abs(nearest_to_zero(x, plane_.size.width));
+    if (plane_.tile_y) y = std::abs(nearest_to_zero(y, plane_.size.height));
     sum += std::max(0.0, 1 - std::sqrt(double(x) * x + double(y) * y) / reach);
   }
   return sum;
@@ -206,7 +196,7 @@ ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, i
   Fit out;
   const double soft = pack_tuning->soft * shapes_.typical_side;
   for (const ElementSample& s : shape.samples) {
-    const int64_t i = index(column + s.x, row + s.y);
+    const int64_t i = plane_.index(column + s.x, row + s.y);
     if (i < 0) continue;
     const float there = depth_but(places_[size_t(i)], but);
     out.gain += there < 0 ? 1 : -overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
@@ -215,7 +205,7 @@ ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, i
   const double within = std::max(1.0, pack_tuning->contact_within * shapes_.typical_side);
   int inside = 0;
   for (const ElementSample& s : shape.outline) {
-    const int64_t i = index(column + s.x, row + s.y);
+    const int64_t i = plane_.index(column + s.x, row + s.y);
     if (i < 0) continue;
     inside++;
     out.contact += std::max(0.0, 1 - std::abs(double(depth_but(places_[size_t(i)], but) + s.depth)) / within);
@@ -266,7 +256,7 @@ void ElementPacking::for_places_in_phase(const ElementShape& shape, const Hole& 
     }
 }
 
-bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
+bool ElementPacking::fill(const Hole& hole, const FitThresholds& terms) {
   const double usual = double(placed_.size()) / std::max(1, shapes_.whole);
   struct Best {
     int element = -1, column = 0, row = 0;
@@ -343,18 +333,18 @@ void ElementPacking::settle(const Task& task) {
   }
 }
 
-int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
+int ElementPacking::fill_holes(const FitThresholds& terms, const Task& task) {
   const int off = std::max(1, int(pack_tuning->hole * 2 * shapes_.typical_side));
   std::vector<uint8_t> tried(places_.size(), 0);
   int filled = 0;
   for (const Hole& h : holes()) {
-    const auto at = size_t(index(h.column, h.row));
+    const auto at = size_t(plane_.index(h.column, h.row));
     if (tried[at] || is_filled(places_[at])) continue;
     task.check();
     if (fill(h, terms)) filled++;
     for (int y = -off; y <= off; y++)
       for (int x = -off; x <= off; x++)
-        if (const int64_t i = index(h.column + x, h.row + y); i >= 0) tried[size_t(i)] = 1;
+        if (const int64_t i = plane_.index(h.column + x, h.row + y); i >= 0) tried[size_t(i)] = 1;
   }
   return filled;
 }
@@ -364,15 +354,15 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
   paint_all();
   for (int round = 0; round < pack_tuning->rounds; round++) {
     task.progress(double(round) / pack_tuning->rounds);
-    take_away_covered(task);
+    remove_overlapped(task);
     // What is left is filled with what disturbs least.
     const double part = std::max(0.0, 1 - round / 3.0);
-    const Terms terms{part * pack_tuning->least_gain,
-                      pack_tuning->least_overlap + part * (pack_tuning->overlap - pack_tuning->least_overlap)};
+    const FitThresholds terms{part * pack_tuning->least_gain,
+                              pack_tuning->least_overlap + part * (pack_tuning->overlap - pack_tuning->least_overlap)};
     if (fill_holes(terms, task) == 0 && part == 0) break;
     settle(task);
   }
-  take_away_covered(task);
+  remove_overlapped(task);
   fill_holes({phase_ ? -1 : pack_tuning->last_gain, pack_tuning->least_overlap}, task);  // courses: squeezed along them
 }
 

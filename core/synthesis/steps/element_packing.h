@@ -8,7 +8,7 @@
 
 #include "core/base/task.h"
 #include "core/exemplar/repeats.h"
-#include "core/synthesis/state/field.h"
+#include "core/synthesis/state/plane_window.h"
 #include "core/synthesis/steps/element_holes.h"
 #include "core/synthesis/steps/element_shapes.h"
 
@@ -17,8 +17,8 @@ namespace terrazzo {
 /// Elements side by side: all of the result belongs to one of them.
 class ElementPacking {
  public:
-  /// `size`: of the result, in blocks of the shapes. `closed_x`, `closed_y`: it wraps around.
-  ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y);
+  /// `plane`: the result, in blocks of the shapes.
+  ElementPacking(const ElementShapes& shapes, const Plane& plane);
 
   /// Elements come where they are in phase with a lattice only. Borrows `phase`.
   void keep_to(const Lattice& lattice, const PartPhases& phase) {
@@ -57,28 +57,26 @@ class ElementPacking {
   const std::vector<PlacedElement>& placed() const { return placed_; }
   /// Whether a block is not part of a hole that no element fits.
   bool is_filled(const Place& p) const { return double(p.depth.blocks()) > -tolerance_; }
-  const Place& at(int x, int y) const { return places_[size_t(y) * size_t(size_.width) + size_t(x)]; }
-  /// The same around the borders of a result that wraps; null outside of one that does not.
+  /// Also around the borders of a result that wraps; null outside of one that does not.
   const Place* find(int x, int y) const {
-    const int64_t i = index(x, y);
+    const int64_t i = plane_.index(x, y);
     return i < 0 ? nullptr : &places_[size_t(i)];
   }
 
  private:
   template <typename Visit>
   void for_blocks(const PlacedElement& p, Visit visit) const;
-  int64_t index(int column, int row) const { return pixel_index(size_, column, row, closed_x_, closed_y_); }
   void paint(size_t placed);
   void paint_all();
   void measure_clear();
-  void take_away_covered(const Task& task);
+  void remove_overlapped(const Task& task);
   /// How well an element must fit.
-  struct Terms {
+  struct FitThresholds {
     double least_gain, overlap;
   };
-  int fill_holes(const Terms& terms, const Task& task);
+  int fill_holes(const FitThresholds& terms, const Task& task);
   std::vector<Hole> holes() const;
-  bool fill(const Hole& hole, const Terms& terms);
+  bool fill(const Hole& hole, const FitThresholds& terms);
   template <typename Visit>
   void for_places(const ElementShape& shape, const Hole& hole, Visit visit) const;
   template <typename Visit>
@@ -105,8 +103,7 @@ class ElementPacking {
   void settle(const Task& task);
 
   const ElementShapes& shapes_;
-  Size size_;
-  bool closed_x_, closed_y_;
+  Plane plane_;
   double tolerance_;  ///< by how many blocks an element may end too early without leaving a hole
   Lattice lattice_;   ///< of rank 0: elements come anywhere
   const PartPhases* phase_ = nullptr;

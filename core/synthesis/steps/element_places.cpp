@@ -36,21 +36,20 @@ struct Count {
 ElementPlaces::ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance,
                              const Lattice* courses)
     : field_(field),
-      block_(level.block),
       level_(level),
       elements_(*appearance.elements()),
       wraps_(appearance.wraps()),
-      shapes_(element_shapes(elements_, appearance.levels().front().usable, block_, wraps_, courses)) {}
+      shapes_(element_shapes(elements_, appearance.levels().front().usable, level_.block, wraps_, courses)) {}
 
 PlacedElement ElementPlaces::element_at(int column, int row) const {
   const ExemplarPixel& p = field_.at(column, row);
   const int element = elements_.at[size_t(p.y) * size_t(elements_.size.width) + p.x];
   const ElementShape& shape = shapes_[element];
   const auto unwrapped = [&](int at, int centre, int length) {
-    return wraps_ ? centre + wrap(at - centre + length / 2, length) - length / 2 : at;
+    return wraps_ ? centre + nearest_to_zero(at - centre, length) : at;
   };
-  return {element, unwrapped(p.x, shape.centre_x * block_, elements_.size.width) - column * block_,
-          unwrapped(p.y, shape.centre_y * block_, elements_.size.height) - row * block_};
+  return {element, unwrapped(p.x, shape.centre_x * level_.block, elements_.size.width) - column * level_.block,
+          unwrapped(p.y, shape.centre_y * level_.block, elements_.size.height) - row * level_.block};
 }
 
 std::vector<std::vector<ShownElement>> ElementPlaces::shown() const {
@@ -60,7 +59,7 @@ std::vector<std::vector<ShownElement>> ElementPlaces::shown() const {
       const PlacedElement p = element_at(column, row);
       Count& count = votes[{p.element, p.shift_x, p.shift_y}];
       count.blocks++;
-      count.kept += is_kept(column, row);
+      count.kept += level_.is_fixed(column, row);
     }
   std::vector<std::pair<Vote, Count>> by_size(votes.begin(), votes.end());
   std::ranges::stable_sort(by_size, [](const auto& a, const auto& b) { return a.second.blocks > b.second.blocks; });
@@ -79,7 +78,7 @@ std::vector<std::vector<ShownElement>> ElementPlaces::shown() const {
 
 /// An element of a kept result that was bent to meet its neighbours is still in one place.
 const ShownElement* ElementPlaces::find(const std::vector<ShownElement>& places, const PlacedElement& at) const {
-  const double deep = level_.fixed.any() ? double(shapes_[at.element].inner_radius) * block_ : 0;
+  const double deep = level_.fixed.any() ? double(shapes_[at.element].inner_radius) * level_.block : 0;
   const int reach = std::max(element_places_tuning->same_place, int(element_places_tuning->bent * deep));
   const auto found = std::ranges::find_if(places, [&](const ShownElement& s) {
     return std::abs(s.placed.shift_x - at.shift_x) <= reach && std::abs(s.placed.shift_y - at.shift_y) <= reach;
@@ -89,8 +88,8 @@ const ShownElement* ElementPlaces::find(const std::vector<ShownElement>& places,
 
 ExemplarPixel ElementPlaces::inside(int x, int y) const {
   if (wraps_) return {uint16_t(wrap(x, elements_.size.width)), uint16_t(wrap(y, elements_.size.height))};
-  return {uint16_t(std::clamp(x, 0, elements_.size.width - block_)),
-          uint16_t(std::clamp(y, 0, elements_.size.height - block_))};
+  return {uint16_t(std::clamp(x, 0, elements_.size.width - level_.block)),
+          uint16_t(std::clamp(y, 0, elements_.size.height - level_.block))};
 }
 
 }  // namespace terrazzo

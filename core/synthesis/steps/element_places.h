@@ -6,7 +6,6 @@
 #include "core/exemplar/appearance.h"
 #include "core/synthesis/state/correction_level.h"
 #include "core/synthesis/state/field.h"
-#include "core/synthesis/steps/element_packing.h"
 #include "core/synthesis/steps/element_shapes.h"
 
 namespace terrazzo {
@@ -26,7 +25,6 @@ class ElementPlaces {
                 const Lattice* courses = nullptr);
 
   const ElementShapes& shapes() const { return shapes_; }
-  bool is_kept(int column, int row) const { return level_.fixed.at(level_.window.index(column, row)); }
 
   /// The element that a block of the field shows, shifted by as much as that shows it; it comes out in one piece where
   /// the exemplar tiles.
@@ -40,7 +38,6 @@ class ElementPlaces {
 
  private:
   const Field& field_;
-  int block_;
   const CorrectionLevel& level_;
   const Elements& elements_;
   bool wraps_;

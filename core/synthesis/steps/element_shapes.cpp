@@ -8,6 +8,7 @@
 
 #include "core/base/tuning.h"
 #include "core/numeric/distance_transform.h"
+#include "core/synthesis/state/plane_window.h"
 
 namespace terrazzo {
 
@@ -66,29 +67,15 @@ const Tunable<ElementShapesTuning> element_shapes_tuning(
 
 /// The exemplar's regions, one per block.
 struct Grid {
-  Size size;
-  bool wraps;
+  Plane plane;
   std::vector<uint16_t> at;
 
-  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < size.width && y < size.height; }
   /// -1 beyond the border of an exemplar that does not tile.
   int region(int x, int y) const {
-    if (wraps) {
-      x = wrap(x, size.width);
-      y = wrap(y, size.height);
-    } else if (!holds(x, y)) {
-      return -1;
-    }
-    return at[size_t(y) * size_t(size.width) + size_t(x)];
+    const int64_t i = plane.index(x, y);
+    return i < 0 ? -1 : at[size_t(i)];
   }
 };
-
-/// The smallest step from `from` to `to` around a circle of `length`.
-int nearest_around(int from, int to, int length) {
-  int step = wrap(to - from, length);
-  if (step > length / 2) step -= length;
-  return from + step;
-}
 
 struct Extent {
   int first_x = -1, first_y = 0;  ///< its first block: others count from there around the borders
@@ -98,8 +85,8 @@ struct Extent {
 
 void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   if (e.first_x < 0) e = {x, y, x, x, y, y};
-  const int u = grid.wraps ? nearest_around(e.first_x, x, grid.size.width) : x;
-  const int v = grid.wraps ? nearest_around(e.first_y, y, grid.size.height) : y;
+  const int u = grid.plane.tile_x ? e.first_x - nearest_to_zero(e.first_x - x, grid.plane.size.width) : x;
+  const int v = grid.plane.tile_x ? e.first_y - nearest_to_zero(e.first_y - y, grid.plane.size.height) : y;
   e.left = std::min(e.left, u);
   e.right = std::max(e.right, u);
   e.top = std::min(e.top, v);
@@ -107,8 +94,8 @@ void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   e.sum_x += u;
   e.sum_y += v;
   shape.area++;
-  const bool at_border = x == 0 || y == 0 || x == grid.size.width - 1 || y == grid.size.height - 1;
-  shape.cut |= !grid.wraps && at_border;
+  const bool at_border = x == 0 || y == 0 || x == grid.plane.size.width - 1 || y == grid.plane.size.height - 1;
+  shape.cut |= !grid.plane.tile_x && at_border;
 }
 
 /// Signed distances, positive inside, of which those in x, or those in y, count so many times.
@@ -136,26 +123,27 @@ void measure(const Grid& grid, int element, int margin, int inset, const Extent&
   shape.box = {e.left - margin - shape.centre_x, e.top - margin - shape.centre_y, e.right - e.left + 1 + 2 * margin,
                e.bottom - e.top + 1 + 2 * margin};
   // One that reaches around the exemplar to itself has no outline of its own.
-  shape.unusable |= e.right - e.left + 1 >= grid.size.width || e.bottom - e.top + 1 >= grid.size.height;
-  std::vector<uint8_t> inside(size_t(shape.box.area()));
-  for (int y = 0; y < shape.box.height; y++)
-    for (int x = 0; x < shape.box.width; x++) {
-      const int u = x + shape.box.x + shape.centre_x, v = y + shape.box.y + shape.centre_y;
-      const bool counts = std::min({u, v, grid.size.width - 1 - u, grid.size.height - 1 - v}) >= inset;
-      inside[size_t(y) * size_t(shape.box.width) + size_t(x)] = (inset == 0 || counts) && grid.region(u, v) == element;
-    }
+  shape.unusable |= e.right - e.left + 1 >= grid.plane.size.width || e.bottom - e.top + 1 >= grid.plane.size.height;
+  const auto for_blocks = [&](int first, int step, const auto& visit) {
+    for (int y = shape.box.y + first; y < shape.box.bottom(); y += step)
+      for (int x = shape.box.x + first; x < shape.box.right(); x += step) visit(x, y);
+  };
+  std::vector<uint8_t> inside;
+  for_blocks(0, 1, [&](int x, int y) {
+    const int u = x + shape.centre_x, v = y + shape.centre_y;
+    const bool counts = std::min({u, v, grid.plane.size.width - 1 - u, grid.plane.size.height - 1 - v}) >= inset;
+    inside.push_back((inset == 0 || counts) && grid.region(u, v) == element);
+  });
   shape.depths = stretched_depths(inside, {shape.box.width, shape.box.height}, times);
-  for (const float d : shape.depths) shape.inner_radius = std::max(shape.inner_radius, d);
+  shape.inner_radius = std::max(shape.inner_radius, std::ranges::max(shape.depths));
   const int step = std::max(1, int(std::sqrt(double(shape.area) / element_shapes_tuning->samples)));
-  for (int y = step / 2; y < shape.box.height; y += step)
-    for (int x = step / 2; x < shape.box.width; x += step)
-      if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; d > 0)
-        shape.samples.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
+  for_blocks(step / 2, step, [&](int x, int y) {
+    if (const float d = shape.depth(x, y); d > 0) shape.samples.push_back({int16_t(x), int16_t(y), d});
+  });
   std::vector<ElementSample> outline;
-  for (int y = 0; y < shape.box.height; y++)
-    for (int x = 0; x < shape.box.width; x++)
-      if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; std::abs(d) < 1)
-        outline.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
+  for_blocks(0, 1, [&](int x, int y) {
+    if (const float d = shape.depth(x, y); std::abs(d) < 1) outline.push_back({int16_t(x), int16_t(y), d});
+  });
   const size_t every = std::max<size_t>(1, outline.size() / size_t(element_shapes_tuning->outline));
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
 }
@@ -163,7 +151,7 @@ void measure(const Grid& grid, int element, int margin, int inset, const Extent&
 /// Elements that the exemplar's border cuts. Tiles of a grid may end there: those are as large as the others. Where
 /// most of the exemplar lies in cut elements, those end there that are not much smaller: else too little would come
 /// back.
-void leave_out_cut(std::vector<ElementShape>& shapes, bool in_grid, double typical_side) {
+void reject_cut(std::vector<ElementShape>& shapes, bool in_grid, double typical_side) {
   double whole = 0, all = 0;
   std::vector<int64_t> areas;
   for (const ElementShape& s : shapes) {
@@ -188,7 +176,7 @@ double raggedness(const ElementShape& s) {
   return double(s.area) / std::max(1.0, double(s.inner_radius) * double(s.inner_radius));
 }
 
-void leave_out_ragged(std::vector<ElementShape>& shapes) {
+void reject_noncompact(std::vector<ElementShape>& shapes) {
   std::vector<double> all;
   for (const ElementShape& s : shapes)
     if (!s.unusable) all.push_back(raggedness(s));
@@ -215,14 +203,12 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   const bool in_courses = lattice && lattice->rank == 1 && lattice->certainty >= element_shapes_tuning->surest_courses;
   if (in_courses && lattice->first.x() == 0) times.height = element_shapes_tuning->across;
   if (in_courses && lattice->first.y() == 0) times.width = element_shapes_tuning->across;
-  ElementShapes out{.block = block,
-                    .size = {(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block},
-                    .wraps = wraps,
-                    .all = std::vector<ElementShape>(size_t(elements.count))};
-  Grid grid{out.size, wraps, {}};
+  ElementShapes out{.block = block, .all = std::vector<ElementShape>(size_t(elements.count))};
+  const Size size{(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block};
+  Grid grid{{size, wraps, wraps}, {}};
   std::vector<Extent> extents(out.all.size());
-  for (int y = 0; y < out.size.height; y++)
-    for (int x = 0; x < out.size.width; x++) {
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
       const size_t pixel = size_t(y) * size_t(block) * size_t(elements.size.width) + size_t(x) * size_t(block);
       const uint16_t element = elements.at[pixel];
       grid.at.push_back(element);
@@ -231,9 +217,9 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
     }
   double squares = 0;
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
-  out.typical_side = std::sqrt(squares / double(out.size.area()));
+  out.typical_side = std::sqrt(squares / double(size.area()));
   const int margin = std::max(2, int(element_shapes_tuning->margin * out.typical_side));
-  leave_out_cut(out.all, lattice && lattice->rank == 2, out.typical_side);
+  reject_cut(out.all, lattice && lattice->rank == 2, out.typical_side);
   const int inset = int(std::ceil(element_shapes_tuning->inset * out.typical_side));
   tbb::parallel_for(0, elements.count, [&](int e) {
     // Blocks may miss the smallest regions.
@@ -242,7 +228,7 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
     else
       measure(grid, e, margin, out.all[size_t(e)].cut ? inset : 0, extents[size_t(e)], times, out.all[size_t(e)]);
   });
-  leave_out_ragged(out.all);
+  reject_noncompact(out.all);
   out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.unusable; }));
   return out;
 }

@@ -55,8 +55,6 @@ struct PlacedElement {
 
 struct ElementShapes {
   int block = 1;
-  Size size;  ///< of the exemplar, in blocks
-  bool wraps = false;
   std::vector<ElementShape> all;
   double typical_side = 0;  ///< of the element that a random block lies in, in blocks
   int whole = 0;            ///< elements that are usable

@@ -43,24 +43,24 @@ const Tunable<ExemplarCoursesTuning> exemplar_courses_tuning(
 constexpr size_t pair_stride = 7, pair_factor = 13, pair_offset = 5;
 
 /// A course may reach into the exemplar's border, which is not shown: there the result stays as it is.
-bool shows(const BlockSource& source, const Coursing& coursing, int along, int across) {
+bool shows(const PaddedLevel& exemplar, const Coursing& coursing, int along, int across) {
   const int scale = 1 << coursing.level;
   auto [x, y] = coursing.axes.at(along * scale + scale / 2, across * scale + scale / 2);
   int inside_x = x, inside_y = y;
-  source.exemplar.settle_inside(inside_x, inside_y);
+  exemplar.settle_inside(inside_x, inside_y);
   (coursing.axes.upright ? x : y) = coursing.axes.upright ? inside_x : inside_y;
-  return source.exemplar.holds(x, y);
+  return exemplar.holds(x, y);
 }
 
 /// Joints can be cut in or near their middle; bricks at some columns, at a higher cost.
 std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double height) {
-  constexpr int far = CourseColumns::farthest_off_middle;
+  constexpr int far = CourseColumns::farthest_joint_offset;
   const ExemplarCoursesTuning t = *exemplar_courses_tuning;
   const int length = int(course.joint.size());
   const int spacing = std::max(1, int((course.end - course.begin) * t.brick_cut_spacing));
   std::map<int, CourseColumns::Cut> out;
-  const auto add = [&](int u, double brick, int off_middle) {
-    out[u] = {u, int32_t((t.cut_joint + (t.cut_brick - t.cut_joint) * brick) * cost_unit * height), off_middle};
+  const auto add = [&](int u, double brick, int joint_offset) {
+    out[u] = {u, int32_t((t.cut_joint + (t.cut_brick - t.cut_joint) * brick) * cost_unit * height), joint_offset};
   };
   for (int u = 0; u < length; u += spacing) add(u, 1, 0);
   for (int begin = 0, end = 0; begin < length; begin = end + 1) {
@@ -82,7 +82,7 @@ std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double hei
   return cuts;
 }
 
-CourseColumns columns_of(const AppearanceLevel& looks, const Coursing& coursing, const BlockSource& source, int step,
+CourseColumns columns_of(const AppearanceLevel& looks, const Coursing& coursing, const PaddedLevel& exemplar, int step,
                          const ExemplarCourse& course) {
   CourseColumns out;
   const int begin = int(std::floor(course.begin + 0.5)), end = int(std::floor(course.end + 0.5));
@@ -93,7 +93,7 @@ CourseColumns columns_of(const AppearanceLevel& looks, const Coursing& coursing,
       const auto [x, y] = coursing.axes.at(u, v);
       if (x >= 0 && y >= 0 && x < looks.size.width && y < looks.size.height)
         means.add(v + 0.5, looks.vectors[size_t(y) * looks.size.width + x]);
-      usable &= shows(source, coursing, u, v);
+      usable &= shows(exemplar, coursing, u, v);
     }
     out.looks.push_back(means.means());
     out.usable.push_back(usable);
@@ -105,10 +105,10 @@ CourseColumns columns_of(const AppearanceLevel& looks, const Coursing& coursing,
 }  // namespace
 
 std::vector<CourseColumns> exemplar_courses(const AppearanceLevel& looks, const Coursing& coursing,
-                                            const BlockSource& source, int step) {
+                                            const PaddedLevel& exemplar, int step) {
   std::vector<CourseColumns> out(coursing.courses.size());
   tbb::parallel_for(size_t{0}, out.size(),
-                    [&](size_t c) { out[c] = columns_of(looks, coursing, source, step, coursing.courses[c]); });
+                    [&](size_t c) { out[c] = columns_of(looks, coursing, exemplar, step, coursing.courses[c]); });
   return out;
 }
 
@@ -117,7 +117,7 @@ double cost_per_difference(const std::vector<CourseColumns>& columns, const Cour
   for (size_t a = 0; a < columns.size(); a++)
     for (size_t b = a; b < columns.size(); b++) {
       if (coursing.courses[a].kind != coursing.courses[b].kind) continue;
-      const std::vector<ColumnLook>&p = columns[a].looks, &q = columns[b].looks;
+      const std::vector<ColumnDescriptor>&p = columns[a].looks, &q = columns[b].looks;
       for (size_t i = 0; i < p.size(); i += pair_stride, count++)
         sum += difference(p[i], q[(i * pair_factor + pair_offset) % q.size()]);
     }

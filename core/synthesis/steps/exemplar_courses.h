@@ -24,8 +24,8 @@ class StripMeans {
     count_[strip]++;
     for (size_t d = 0; d < v.size(); d++) sum_[strip][d] += v[d];
   }
-  ColumnLook means() const {
-    ColumnLook out{};
+  ColumnDescriptor means() const {
+    ColumnDescriptor out{};
     for (size_t s = 0; s < out.size(); s++)
       for (size_t d = 0; d < out[s].size(); d++) out[s][d] = int16_t(sum_[s][d] / std::max(1, count_[s]));
     return out;
@@ -37,17 +37,10 @@ class StripMeans {
   std::array<std::array<int, appearance_dimensions>, course_strips> sum_{};
 };
 
-/// The blocks of exemplar pixels that a result may show.
-struct BlockSource {
-  const PaddedLevel& exemplar;  ///< the finest level
-  int block = 1;                ///< pixels along each side
-  bool holds(int x, int y) const { return exemplar.holds(x, y) && exemplar.holds(x + block - 1, y + block - 1); }
-};
-
 /// The columns of all the exemplar's courses, and where they can be cut. `looks`: the coursing's level. `step`: columns
-/// of the exemplar to one of the result.
+/// of the exemplar to one of the result. `exemplar`: the finest level.
 std::vector<CourseColumns> exemplar_courses(const AppearanceLevel& looks, const Coursing& coursing,
-                                            const BlockSource& source, int step);
+                                            const PaddedLevel& exemplar, int step);
 
 /// The factor that scales differences so that those between two columns of one kind are cost_unit on average.
 double cost_per_difference(const std::vector<CourseColumns>& columns, const Coursing& coursing);

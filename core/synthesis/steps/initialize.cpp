@@ -58,21 +58,20 @@ std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t 
 /// Places one block after the other, each the best of several random ones.
 class BlockPlacing {
  public:
-  BlockPlacing(const Plane& plane, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,
-               uint64_t seed)
-      : plane_(plane),
-        exemplar_(exemplar),
-        control_(control),
-        phase_(phase),
+  BlockPlacing(const CorrectionLevel& level, uint64_t seed)
+      : level_(level),
+        exemplar_(level.exemplar),
+        plane_(level.window.plane),
         seed_(seed),
-        side_(block_side(exemplar.size())),
-        columns_((plane.size.width + side_ - 1) / side_),
-        rows_((plane.size.height + side_ - 1) / side_) {}
+        side_(block_side(exemplar_.size())),
+        blocks_{{(plane_.size.width + side_ - 1) / side_, (plane_.size.height + side_ - 1) / side_},
+                plane_.tile_x,
+                plane_.tile_y} {}
 
   Field field() {
     Field field{plane_.size, std::vector<ExemplarPixel>(size_t(plane_.size.area()))};
-    for (int row = 0; row < rows_; row++)
-      for (int column = 0; column < columns_; column++) {
+    for (int row = 0; row < blocks_.size.height; row++)
+      for (int column = 0; column < blocks_.size.width; column++) {
         starts_.push_back(best_start(column, row));
         const Rect block = this->block(column, row);
         for (int y = 0; y < block.height; y++)
@@ -93,7 +92,7 @@ class BlockPlacing {
                     std::min(exemplar.width, exemplar.height) / initialize_tuning->blocks_per_side);
   }
 
-  bool steered() const { return control_ || exemplar_.masked(); }
+  bool steered() const { return level_.control || exemplar_.masked(); }
   Rect block(int column, int row) const {
     return intersect(whole(plane_.size), {column * side_, row * side_, side_, side_});
   }
@@ -101,7 +100,7 @@ class BlockPlacing {
   Start best_start(int column, int row) const {
     const uint64_t bits = random_bits(seed_, Purpose::blocks, column, row);
     Start best = start(column, row, bits);
-    if (!steered() && phase_.active()) return best;  // cells of a lattice are meant to repeat
+    if (!steered() && level_.phase.active()) return best;  // cells of a lattice are meant to repeat
     double least = misfit(column, row, best);
     const int draws = steered() ? initialize_tuning->steered_draws : initialize_tuning->free_draws;
     for (int draw = 1; draw < draws && least > 0; draw++) {
@@ -116,7 +115,7 @@ class BlockPlacing {
 
   Start start(int column, int row, uint64_t bits) const {
     Start start = random_start(exemplar_, side_, bits);
-    phase_.snap(column * side_, row * side_, start[0], start[1]);
+    level_.phase.snap(column * side_, row * side_, start[0], start[1]);
     exemplar_.unwind(start[0], start[1]);
     return start;
   }
@@ -133,7 +132,7 @@ class BlockPlacing {
         int u = start[0] + x, v = start[1] + y;
         exemplar_.settle(u, v);
         const int64_t pixel = int64_t{block.y + y} * plane_.size.width + block.x + x;
-        if (control_) misfit += control_->cost(u, v, control_->target(pixel));
+        if (level_.control) misfit += level_.control->cost(u, v, level_.control->target(pixel));
         misfit += u != start[0] + x || v != start[1] + y;
       }
     return double(misfit);
@@ -145,7 +144,7 @@ class BlockPlacing {
     double sum = 0;
     for (int down = -near_blocks; down <= near_blocks; down++)
       for (int across = -near_blocks; across <= near_blocks; across++) {
-        const int64_t other = pixel_index({columns_, rows_}, column + across, row + down, plane_.tile_x, plane_.tile_y);
+        const int64_t other = blocks_.index(column + across, row + down);
         if (other < 0 || other >= int64_t(starts_.size())) continue;
         const int du = starts_[size_t(other)][0] - start[0], dv = starts_[size_t(other)][1] - start[1];
         const int width = side_ - std::abs(du), height = side_ - std::abs(dv);
@@ -156,13 +155,12 @@ class BlockPlacing {
     return sum;
   }
 
-  const Plane& plane_;
+  const CorrectionLevel& level_;
   const PaddedLevel& exemplar_;
-  const LevelControl* control_;
-  const PartPhases& phase_;
+  const Plane& plane_;
   uint64_t seed_;
   int side_;
-  int columns_, rows_;
+  Plane blocks_;
   std::vector<Start> starts_;  // of the blocks that are placed
 };
 
@@ -183,36 +181,35 @@ void settle_block(int& u, int& v, const PaddedLevel& exemplar) {
 
 }  // namespace
 
-Field random_blocks(const Plane& plane, const PaddedLevel& exemplar, const LevelControl* control,
-                    const PartPhases& phase, uint64_t seed) {
-  return BlockPlacing(plane, exemplar, control, phase, seed).field();
+Field random_blocks(const CorrectionLevel& level, uint64_t seed) {
+  return BlockPlacing(level, seed).field();
 }
 
-void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64_t seed, int level) {
+void scatter(Field& field, const CorrectionLevel& level, double amplitude, uint64_t seed) {
   if (amplitude <= 0) return;
   for (int y = 0; y < field.size.height; y++)
     for (int x = 0; x < field.size.width; x++) {
       int u = field.at(x, y).x, v = field.at(x, y).y;
-      displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
-      exemplar.settle(u, v);
+      displace(u, v, level.exemplar, amplitude, random_bits(seed, Purpose::jitter, level.level, x, y));
+      level.exemplar.settle(u, v);
       field.at(x, y) = {uint16_t(u), uint16_t(v)};
     }
 }
 
-Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar, const PartPhases& phase,
-                   double amplitude, uint64_t seed, int level) {
+Field block_starts(const Field& parent, const CorrectionLevel& level, double amplitude, uint64_t seed) {
   Field starts{parent.size, std::vector<ExemplarPixel>(parent.pixels.size())};
   tbb::parallel_for(0, parent.size.height, [&](int row) {
     for (int column = 0; column < parent.size.width; column++) {
       const ExemplarPixel p = parent.at(column, row);
-      const int x = window.x(column), y = window.y(row);
+      const int x = level.window.x(column), y = level.window.y(row);
       int u = 2 * p.x, v = 2 * p.y;
-      if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
+      if (amplitude > 0)
+        displace(u, v, level.exemplar, amplitude, random_bits(seed, Purpose::jitter, level.level, x, y));
       // At the finest level pieces fit one another already; to snap each to the lattice would undo that, unless the
       // lattice is exact to the pixel.
-      if (level > 0 || amplitude > 0 || phase.is_whole()) phase.snap(2 * x, 2 * y, u, v);
-      exemplar.unwind(u, v);
-      settle_block(u, v, exemplar);
+      if (level.level > 0 || amplitude > 0 || level.phase.is_whole()) level.phase.snap(2 * x, 2 * y, u, v);
+      level.exemplar.unwind(u, v);
+      settle_block(u, v, level.exemplar);
       starts.at(column, row) = {uint16_t(u), uint16_t(v)};
     }
   });

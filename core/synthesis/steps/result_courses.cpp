@@ -20,15 +20,14 @@ CourseAxes result_axes(const Coursing& coursing, const LatticePhase& phase) {
 
 }  // namespace
 
-ResultCourses::ResultCourses(const Field& field, const CorrectionLevel& level, const BlockSource& source,
-                             const Coursing& coursing, const LatticePhase& phase)
+ResultCourses::ResultCourses(const Field& field, const CorrectionLevel& level, const Coursing& coursing,
+                             const LatticePhase& phase)
     : field_(field),
       level_(level),
-      source_(source),
       axes_(result_axes(coursing, phase)),
       scale_(1 << coursing.level),
-      step_(std::max(1, source.block / scale_)),
-      blocks_(std::max(1, scale_ / source.block)),
+      step_(std::max(1, level.block / scale_)),
+      blocks_(std::max(1, scale_ / level.block)),
       length_((axes_.upright ? field.size.height : field.size.width) / blocks_),
       closed_along_(axes_.upright ? level.window.closed_y : level.window.closed_x),
       closed_across_(axes_.upright ? level.window.closed_x : level.window.closed_y) {
@@ -37,7 +36,7 @@ ResultCourses::ResultCourses(const Field& field, const CorrectionLevel& level, c
 
 int64_t ResultCourses::pixel(int along, int across) const {
   const auto [x, y] = axes_.at(along, across);
-  return pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
+  return level_.window.field().index(x, y);
 }
 
 int ResultCourses::end_of(const ResultCourse& course, size_t run) const {
@@ -47,7 +46,7 @@ int ResultCourses::end_of(const ResultCourse& course, size_t run) const {
 
 std::vector<ResultCourse> ResultCourses::found(const Coursing& coursing, const LatticePhase& phase) const {
   constexpr int far = 1 << 12;
-  const auto across = [&](const Vector2d& at) { return axes_.across(at.x(), at.y()) / source_.block; };
+  const auto across = [&](const Vector2d& at) { return axes_.across(at.x(), at.y()) / level_.block; };
   const double at0 = across(phase.shown_at(0, 0));
   const double at1 = across(axes_.upright ? phase.shown_at(far, 0) : phase.shown_at(0, far));
   const double rate = (at1 - at0) / far * scale_;

@@ -26,16 +26,16 @@ struct ResultCourse {
 /// Borrows everything.
 class ResultCourses {
  public:
-  ResultCourses(const Field& field, const CorrectionLevel& level, const BlockSource& source, const Coursing& coursing,
-                const LatticePhase& phase);
+  ResultCourses(const Field& field, const CorrectionLevel& level, const Coursing& coursing, const LatticePhase& phase);
 
   std::vector<ResultCourse> all;
 
   const CourseAxes& axes() const { return axes_; }
-  int scale() const { return scale_; }    ///< pixels of the finest level to one of the coursing's
-  int step() const { return step_; }      ///< pixels of the coursing's level to a column
-  int blocks() const { return blocks_; }  ///< pixels of the field to a column
-  int length() const { return length_; }  ///< of courses, in columns
+  int scale() const { return scale_; }        ///< pixels of the finest level to one of the coursing's
+  int step() const { return step_; }          ///< pixels of the coursing's level to a column
+  int blocks() const { return blocks_; }      ///< pixels of the field to a column
+  int block() const { return level_.block; }  ///< pixels of the finest level to one of the field
+  int length() const { return length_; }      ///< of courses, in columns
   bool closed_along() const { return closed_along_; }
   bool closed_across() const { return closed_across_; }
   /// By how many rows courses rise along the whole result.
@@ -57,7 +57,7 @@ class ResultCourses {
     for (int row = course.first_row(); row < course.end_row(); row++)
       for (int a = run.begin * blocks_; a < end * blocks_; a++)
         if (const int64_t i = pixel(a, row); i >= 0)
-          f(size_t(i), a * source_.block, (row + axes_.shift(a)) * source_.block);
+          f(size_t(i), a * level_.block, (row + axes_.shift(a)) * level_.block);
   }
 
  private:
@@ -65,7 +65,6 @@ class ResultCourses {
 
   const Field& field_;
   const CorrectionLevel& level_;
-  const BlockSource& source_;
   CourseAxes axes_;
   int scale_;
   int step_;

@@ -57,7 +57,7 @@ class SeamMover {
       next.clear();
       for (const Reached& from : rim)
         for (int side = 0; side < 4; side++) {
-          const int64_t n = beside(from.pixel, side);
+          const int64_t n = problem_.plane.beside(from.pixel, side);
           if (n < 0) continue;
           Reached reached{int(n), from.shown};
           if (step(reached.shown, side) &&
@@ -75,16 +75,10 @@ class SeamMover {
     ExemplarPixel shown;
   };
 
-  int64_t beside(int pixel, int side) const {
-    const PlaneWindow& window = problem_.level.window;
-    return pixel_beside(problem_.field.size, pixel, side, window.closed_x, window.closed_y);
-  }
-
   /// Steps to the exemplar's neighbour on that side, if it has one.
   bool step(ExemplarPixel& p, int side) const {
     const int block = problem_.level.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
-    const PaddedLevel& e = problem_.level.exemplar;
-    if (!e.holds(x, y) || !e.holds(x + block - 1, y + block - 1)) return false;
+    if (!problem_.level.holds(x, y)) return false;
     p = {uint16_t(x), uint16_t(y)};
     return true;
   }
@@ -114,7 +108,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
-  Rounds rounds(field, level.window, moves.reach);
+  Rounds rounds(level.window.field(), moves.reach);
   for (const int piece : order)
     if (pieces.area(piece) >= seams_tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;

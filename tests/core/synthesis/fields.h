@@ -34,12 +34,6 @@ inline Field rubble(int side, Size size) {
   return field;
 }
 
-/// What any field is corrected by, with no similar pixels.
-inline CorrectionLevel level_of(const PaddedLevel& exemplar, FixedPixels fixed = {}) {
-  static const std::vector<ExemplarPixel> none;
-  return {.exemplar = exemplar, .similar = none, .window = {}, .phase = {}, .fixed = std::move(fixed)};
-}
-
 /// What a field of that size is corrected by, with no similar pixels.
 inline CorrectionLevel level_of(const PaddedLevel& exemplar, Size size, bool closed = false, FixedPixels fixed = {}) {
   static const std::vector<ExemplarPixel> none;

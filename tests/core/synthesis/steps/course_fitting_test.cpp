@@ -14,8 +14,8 @@ namespace {
 
 constexpr int brick = 6;  // columns
 
-ColumnLook look(int shade) {
-  ColumnLook out{};
+ColumnDescriptor look(int shade) {
+  ColumnDescriptor out{};
   for (AppearanceVector& v : out)
     for (size_t d = 0; d < v.size(); d++) v[d] = int16_t(int(random_bits(3, shade, d) % 400) - 200);
   return out;
@@ -34,8 +34,8 @@ CourseColumns course(const std::vector<int>& shades) {
   return out;
 }
 
-std::vector<ColumnLook> looks(const std::vector<int>& shades) {
-  std::vector<ColumnLook> out;
+std::vector<ColumnDescriptor> looks(const std::vector<int>& shades) {
+  std::vector<ColumnDescriptor> out;
   for (const int s : shades) out.push_back(look(s));
   return out;
 }
@@ -74,7 +74,7 @@ TEST_CASE("bricks that are not whole become whole: the more like what there is t
 TEST_CASE("columns that are not usable are not shown, dear ones only if they must") {
   CourseColumns a = course({1, 2, 3, 4});
   const CourseColumns b = course({1, 2, 3, 4});
-  const std::vector<ColumnLook> shown = looks(bricks({2, 3}));
+  const std::vector<ColumnDescriptor> shown = looks(bricks({2, 3}));
   a.usable[brick + 1] = 0;
   CHECK(fitting_runs(shown, {{&a}, {&b}}, {}, fit).front().course == 1);
   a.usable[brick + 1] = 1;
@@ -88,27 +88,27 @@ TEST_CASE("columns that are not usable are not shown, dear ones only if they mus
 
 TEST_CASE("a run does not begin where that is dear, unless it has to") {
   const CourseColumns a = course({1, 2, 3, 4}), b = course({5, 6, 7, 8});
-  const std::vector<ColumnLook> shown = looks(bricks({2, 3, 3, 7, 8}));
-  const auto begins = [&](const CoursePriceList& prices, const CourseFit& f) {
+  const std::vector<ColumnDescriptor> shown = looks(bricks({2, 3, 3, 7, 8}));
+  const auto begins = [&](const CourseCosts& prices, const CourseFit& f) {
     std::vector<int> out;
     for (const CourseRun& r : fitting_runs(shown, {{&a}, {&b}}, prices, f)) out.push_back(r.begin);
     return out;
   };
   const std::vector<int> free = begins({}, fit);
   REQUIRE(free.size() > 1);
-  CoursePriceList dear{.cuts = std::vector<int32_t>(shown.size(), 0)};
+  CourseCosts dear{.cuts = std::vector<int32_t>(shown.size(), 0)};
   CHECK(begins(dear, fit) == free);
   dear.cuts[size_t(free[1])] = 50000;
   const std::vector<int> elsewhere = begins(dear, fit);
   CHECK(std::ranges::find(elsewhere, free[1]) == elsewhere.end());
   // The same for all columns changes nothing that has to be cut.
-  CoursePriceList all{.cuts = std::vector<int32_t>(shown.size(), 1)};
+  CourseCosts all{.cuts = std::vector<int32_t>(shown.size(), 1)};
   CHECK(begins(all, fit) == free);
   CourseFit around = fit;
   around.closed = true;
   const std::vector<int> closed = begins({}, around);
   REQUIRE(!closed.empty());
-  CoursePriceList there{.cuts = std::vector<int32_t>(shown.size(), 0)};
+  CourseCosts there{.cuts = std::vector<int32_t>(shown.size(), 0)};
   there.cuts[size_t(closed[0])] = 50000;
   const std::vector<int> moved = begins(there, around);
   CHECK(std::ranges::find(moved, closed[0]) == moved.end());
@@ -125,8 +125,8 @@ TEST_CASE("a course does not repeat itself at once, but goes back far enough") {
 
 TEST_CASE("runs begin in phase only") {
   const CourseColumns a = course({1, 2, 3, 4}), b = course({5, 6, 7, 8});
-  std::vector<TriedCourse> tried{{&a}, {&b}};
-  for (TriedCourse& t : tried) {
+  std::vector<CandidateCourse> tried{{&a}, {&b}};
+  for (CandidateCourse& t : tried) {
     t.least_shift = -100;
     for (int shift = -100; shift < 4 * brick; shift++) t.in_phase.push_back((shift + 100 * brick) % brick == 0);
   }

@@ -45,7 +45,7 @@ TEST_CASE("holes are where nothing is within the least distance, around closed b
   for (int i = 0; i < 400; i++) filled[random() % filled.size()] = 1;
   for (const bool closed_x : {false, true})
     for (const bool closed_y : {false, true}) {
-      const auto holes = find_holes(filled, size, closed_x, closed_y, 9.5, 24);
+      const auto holes = find_holes(filled, {size, closed_x, closed_y}, 9.5, 24);
       std::map<std::pair<int, int>, int64_t> found;
       for (const Hole& h : holes) found[{h.column, h.row}] = h.squared;
       CHECK(found == holes_one_by_one(filled, size, closed_x, closed_y, 9.5, 24));
@@ -56,8 +56,8 @@ TEST_CASE("holes are where nothing is within the least distance, around closed b
 
 TEST_CASE("a surface without gaps has no holes, an empty one has one in its middle") {
   const Size size{40, 30};
-  CHECK(find_holes(std::vector<uint8_t>(size_t(size.area()), 1), size, true, true, 1, 10).empty());
-  const auto holes = find_holes(std::vector<uint8_t>(size_t(size.area()), 0), size, true, true, 1, 10);
+  CHECK(find_holes(std::vector<uint8_t>(size_t(size.area()), 1), {size, true, true}, 1, 10).empty());
+  const auto holes = find_holes(std::vector<uint8_t>(size_t(size.area()), 0), {size, true, true}, 1, 10);
   REQUIRE(holes.size() == 1);
   CHECK(holes[0].column == 20);
   CHECK(holes[0].row == 15);

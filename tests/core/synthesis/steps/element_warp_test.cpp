@@ -25,8 +25,7 @@ Elements squares() {
 
 /// Two stones side by side in a result that just holds them, `apart` blocks from centre to centre.
 ElementPacking two_stones(const ElementShapes& shapes, int apart) {
-  const Size size{side + apart, side};
-  ElementPacking packing(shapes, size, false, false);
+  ElementPacking packing(shapes, {{side + apart, side}});
   std::vector<PlacedElement> placed;
   for (const int i : {0, 1}) {
     PlacedElement p{i};

@@ -38,7 +38,7 @@ int64_t mismatch(Field field, const CorrectionLevel& level) {
   int64_t sum = 0;
   for (int i = 0; i < int(field.pixels.size()); i++)
     for (int side = 0; side < 2; side++) {
-      const int64_t n = pixel_beside(field.size, i, side, level.window.closed_x, level.window.closed_y);
+      const int64_t n = problem.plane.beside(i, side);
       if (n >= 0) sum += problem.mismatch(field.pixels[i], field.pixels[size_t(n)], side);
     }
   return sum;

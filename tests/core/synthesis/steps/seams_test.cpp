@@ -47,7 +47,7 @@ TEST_CASE("a seam moves to where its two pieces agree, from either side") {
   for (const int seam : {9, 20}) {
     CAPTURE(seam);
     Field field = meeting_at(seam);
-    move_seams(field, test::level_of(exemplar), {.reach = 8}, Task());
+    move_seams(field, test::level_of(exemplar, field.size), {.reach = 8}, Task());
     for (int y = 0; y < field.size.height; y++) {
       // Output column x shows exemplar column 4 + x; the pieces agree over columns 16 to 20.
       CHECK(columns_of_first_piece(field, y) >= 16 - 4);
@@ -60,14 +60,15 @@ TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay 
   const PaddedLevel exemplar = exemplar_with_repeat();
   Field best = meeting_at(14);
   const Field before = best;
-  move_seams(best, test::level_of(exemplar), {.reach = 8}, Task());
+  move_seams(best, test::level_of(exemplar, best.size), {.reach = 8}, Task());
   CHECK(best.pixels == before.pixels);
 
   Field field = meeting_at(9);
   ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = Keep::always;
   const Field fixed = field;
-  move_seams(field, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), {.reach = 8}, Task());
+  move_seams(field, test::level_of(exemplar, field.size, false, FixedPixels(kept, field.size, 0, side)), {.reach = 8},
+             Task());
   for (int y = 0; y < field.size.height; y++) CHECK(field.at(9, y) == fixed.at(9, y));
 }
 
@@ -85,8 +86,7 @@ TEST_CASE("a seam does not go where controls want something else") {
         {.exemplar = halves(side, 24), .target = halves(field.size, seam), .mode = Control::Mode::labels}};
     const ControlPyramid pyramid(controls, side, side, field.size, 1, Task());
     const LevelControl control(pyramid, 0, exemplar);
-    CorrectionLevel level = test::level_of(exemplar);
-    level.window = PlaneWindow::all_of({field.size, false, false});
+    CorrectionLevel level = test::level_of(exemplar, field.size);
     level.control = &control;
     move_seams(field, level, {.reach = 8}, Task());
     for (int y = 0; y < field.size.height; y++)
@@ -143,8 +143,8 @@ int blocks_of_other_tiles(const Field& field) {
   return others;
 }
 
-CorrectionLevel in_blocks(const PaddedLevel& exemplar) {
-  CorrectionLevel level = test::level_of(exemplar);
+CorrectionLevel in_blocks(const PaddedLevel& exemplar, Size size = blocks) {
+  CorrectionLevel level = test::level_of(exemplar, size);
   level.block = 2;
   return level;
 }
@@ -185,8 +185,8 @@ TEST_CASE("a large piece swallows a small one, unless to be large or far from it
         const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
         field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
       }
-    move_seams(field, in_blocks(plain), {.reach = 8, .distance_penalty = distance_penalty, .target_area = fair},
-               Task());
+    move_seams(field, in_blocks(plain, field.size),
+               {.reach = 8, .distance_penalty = distance_penalty, .target_area = fair}, Task());
     int left = 0;
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;

@@ -1,4 +1,4 @@
-#include "core/synthesis/state/energy.h"
+#include "tests/energy/energy.h"
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>

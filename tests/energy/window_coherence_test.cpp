@@ -1,4 +1,4 @@
-#include "core/synthesis/state/window_coherence.h"
+#include "tests/energy/window_coherence.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "core/synthesis/state/energy.h"
+#include "tests/energy/energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/synthesis/state/expansion.h"
-#include "core/synthesis/state/window_coherence.h"
+#include "tests/energy/window_coherence.h"
 
 namespace terrazzo {
 
@@ -31,7 +31,7 @@ class PixelEnergy {
       sum.unlike += distance > usual ? 1 : 0;
     }
     for (int side = 0; side < 2; side++)
-      if (const int64_t beside = index(x + sides[side][0], y + sides[side][1]); beside >= 0) {
+      if (const int64_t beside = problem_.plane.index(x + sides[side][0], y + sides[side][1]); beside >= 0) {
         const int64_t mismatch = problem_.mismatch(here, field_.pixels[size_t(beside)], side);
         sum.seams += mismatch;
         sum.cut += mismatch > 0 ? 1 : 0;
@@ -41,15 +41,12 @@ class PixelEnergy {
   }
 
  private:
-  int64_t index(int x, int y) const {
-    return pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
-  }
   WindowCoherence::Window window_around(int x, int y) const {
     WindowCoherence::Window out;
     size_t i = 0;
     for (int dy = -WindowCoherence::reach; dy <= WindowCoherence::reach; dy++)
       for (int dx = -WindowCoherence::reach; dx <= WindowCoherence::reach; dx++)
-        out[i++] = field_.pixels[size_t(index(x + dx, y + dy))];
+        out[i++] = field_.pixels[size_t(problem_.plane.index(x + dx, y + dy))];
     return out;
   }
 

@@ -1,4 +1,4 @@
-#include "core/synthesis/state/window_coherence.h"
+#include "tests/energy/window_coherence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,29 +6,14 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/base/tuning.h"
-#include "core/numeric/window_distance.h"
-
 namespace terrazzo {
 
 namespace {
 
 constexpr int reach = WindowCoherence::reach, side = WindowCoherence::side;
 
-struct WindowCoherenceTuning {
-  double usual_share = 0.95;
-  double sampled_windows = 1024;
-};
-const Tunable<WindowCoherenceTuning> window_coherence_tuning(
-    "window_coherence", {
-                            {&WindowCoherenceTuning::usual_share, "usual_share", "share of the exemplar's windows",
-                             "higher: windows count as less far; lower: rare features count as far",
-                             "not measured: the share by which the figure `broken` is defined", 0, 1},
-                            {&WindowCoherenceTuning::sampled_windows, "sampled_windows", "windows of the exemplar",
-                             "higher: the usual distance is known more exactly; costs time",
-                             "not measured: about fifty of them lie beyond usual_share", 1},
-                        });
-
+constexpr double usual_share = 0.95;      // of the exemplar's windows, by which the figure `broken` is defined
+constexpr double sampled_windows = 1024;  // of the exemplar: about fifty of them lie beyond usual_share
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
 
 /// Searches the exemplar's window that is nearest to a given one, and nearer than a limit.
@@ -51,16 +36,11 @@ class NearestWindow {
   /// Considers those that k-coherent candidates of the window's corners and middle continue.
   void consider_similar() {
     if (level_.similar.empty()) return;
-    const int width = level_.exemplar.size().width;
     for (int dy = -reach; dy <= reach && least_ > 0; dy += reach)
       for (int dx = -reach; dx <= reach; dx += reach) {
         if ((dx == 0) != (dy == 0)) continue;
         const ExemplarPixel p = shown_[(dy + reach) * side + dx + reach];
-        const size_t first = (size_t(p.y) * width + p.x) * size_t(level_.per_pixel);
-        for (int k = 0; k < level_.per_pixel; k++) {
-          const ExemplarPixel q = level_.similar[first + size_t(k)];
-          consider(q.x - dx, q.y - dy);
-        }
+        for (const ExemplarPixel& q : level_.similar_to(p)) consider(q.x - dx, q.y - dy);
       }
   }
 
@@ -70,10 +50,10 @@ class NearestWindow {
     if (u < reach || v < reach || u >= size.width - reach || v >= size.height - reach) return;
     if (!level_.exemplar.is_usable(u, v)) return;
     if (!is_new(u, v)) return;
-    const AppearanceVector* first = level_.exemplar.at(u - reach, v - reach);
-    least_ = std::min(least_, window_distance(wanted_[0].data(), first->data(),
-                                              ptrdiff_t{level_.exemplar.stride()} * appearance_dimensions,
-                                              side * appearance_dimensions, side, least_));
+    int64_t sum = 0;
+    for (int i = 0; i < side * side && sum < least_; i++)
+      sum += squared_distance(wanted_[size_t(i)], *level_.exemplar.at(u + i % side - reach, v + i / side - reach));
+    least_ = std::min(least_, sum);
   }
 
   /// Leaves a place out.
@@ -82,7 +62,7 @@ class NearestWindow {
  private:
   /// Whether the place is seen for the first time. Most pixels of a window continue one of a few.
   bool is_new(int u, int v) {
-    const uint32_t place = uint32_t(v) << 16 | uint32_t(u);
+    const uint32_t place = packed(u, v);
     if (std::find(tried_.begin(), tried_.begin() + count_, place) != tried_.begin() + count_) return false;
     tried_[size_t(count_++)] = place;
     return true;
@@ -111,7 +91,7 @@ int64_t own_distance(const CorrectionLevel& level, int u, int v) {
 
 double usual_distance(const CorrectionLevel& level) {
   const Size size = level.exemplar.size();
-  const int step = std::max(1, int(std::sqrt(double(size.area()) / window_coherence_tuning->sampled_windows)));
+  const int step = std::max(1, int(std::sqrt(double(size.area()) / sampled_windows)));
   const int columns = (size.width - 2 * reach + step - 1) / step, rows = (size.height - 2 * reach + step - 1) / step;
   if (columns <= 0 || rows <= 0) return 0;
   std::vector<int64_t> distances(size_t(columns) * rows);
@@ -121,8 +101,7 @@ double usual_distance(const CorrectionLevel& level) {
   });
   std::erase(distances, no_distance);
   if (distances.empty()) return 0;
-  const size_t rank =
-      std::min(distances.size() - 1, size_t(window_coherence_tuning->usual_share * double(distances.size())));
+  const size_t rank = std::min(distances.size() - 1, size_t(usual_share * double(distances.size())));
   const auto usual = distances.begin() + ptrdiff_t(rank);
   std::nth_element(distances.begin(), usual, distances.end());
   return double(*usual);

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "core/synthesis/steps/course_columns.h"
+
+namespace terrazzo {
+
+using CutIndex = uint16_t;
+inline constexpr CutIndex no_cut = most_cuts + 1;
+static_assert(no_cut == std::numeric_limits<CutIndex>::max());
+
+/// The labels of the dynamic programme: the columns of all courses, one course after the other, numbered throughout;
+/// and the cuts of all courses, likewise.
+class CourseLabels {
+ public:
+  struct Cut {
+    int course, label;
+    int32_t cost;
+    int joint_offset;
+  };
+
+  /// Borrows the courses.
+  CourseLabels(const std::vector<CandidateCourse>& courses, const CourseFit& fit) : courses_(courses) {
+    for (size_t c = 0; c < courses.size(); c++) {
+      columns_begin_.push_back(count_);
+      cuts_begin_.push_back(int(cuts.size()));
+      for (const CourseColumns::Cut& cut : courses[c].columns->cuts)
+        cuts.push_back({int(c), count_ + cut.column, cut.cost, cut.joint_offset});
+      count_ += int(courses[c].columns->looks.size());
+    }
+    if (cuts.size() > most_cuts) throw std::length_error("more cuts than can be numbered");
+    columns_begin_.push_back(count_);
+    cuts_begin_.push_back(int(cuts.size()));
+    completed_from.assign(size_t(count_), no_cut);
+    for (size_t k = 0; k < cuts.size(); k++) {
+      const int label = cuts[k].label + (fit.shortest - 1) * fit.step;
+      if (label < end(cuts[k].course)) completed_from[size_t(label)] = CutIndex(k);
+    }
+  }
+
+  int count() const { return count_; }
+  int courses() const { return int(courses_.size()); }
+  const CandidateCourse& course(int c) const { return courses_[size_t(c)]; }
+  int begin(int course) const { return columns_begin_[size_t(course)]; }
+  int end(int course) const { return columns_begin_[size_t(course) + 1]; }
+  int cuts_begin(int course) const { return cuts_begin_[size_t(course)]; }
+  int cuts_end(int course) const { return cuts_begin_[size_t(course) + 1]; }
+  /// The run that begins in the result's column x with a label.
+  CourseRun run(int x, int label) const {
+    const int c = int(std::ranges::upper_bound(columns_begin_, label) - columns_begin_.begin()) - 1;
+    return {x, c, label - begin(c)};
+  }
+
+  std::vector<Cut> cuts;
+  /// Of each label: the cut at which a run begins that reaches the minimum length there; no_cut if there is none.
+  std::vector<CutIndex> completed_from;
+
+ private:
+  const std::vector<CandidateCourse>& courses_;
+  int count_ = 0;
+  std::vector<int> columns_begin_, cuts_begin_;
+};
+
+}  // namespace terrazzo
