@@ -5,10 +5,29 @@
 #include <set>
 #include <vector>
 
+#include "core/base/tuning.h"
 #include "core/numeric/distance_transform.h"
 #include "core/numeric/watershed.h"
 
 namespace terrazzo {
+
+namespace {
+
+struct ElementsTuning {
+  double least_in_step = 0.75;
+  int few = 12;
+};
+const Tunable<ElementsTuning> elements_tuning(
+    "elements",
+    {{&ElementsTuning::least_in_step, "least_in_step", "share of joints",
+      "that come again one step of a lattice further, from which on elements lie in its cells however unsure it is. "
+      "Higher: tiles of thin joints overlap; lower: rough bricks stand in rows",
+      "element_layout", 0, 1},
+     {&ElementsTuning::few, "few", "elements of an exemplar that tiles",
+      "up to which their joints tell a lattice. Higher: costs time; lower: walls of few stones are torn", "regularity",
+      1, 100}});
+
+}  // namespace
 
 int whole_elements(const Elements& elements, bool wraps) {
   if (wraps) return elements.count;
@@ -27,37 +46,77 @@ double typical_side(const Elements& elements) {
   return std::sqrt(squares / double(elements.at.size()));
 }
 
-double joints_in_step(const Elements& elements, const Lattice& lattice, bool wraps) {
-  if (lattice.rank != 2) return 0;
-  const Size size = elements.size;
-  const std::vector<uint8_t> joints = border_pixels(elements.at, size, wraps);
-  const std::vector<int64_t> squared = squared_distances(joints, size, wraps);
-  const double near = std::max(1.5, typical_side(elements) / 16);
-  const auto is_near = [&](size_t i) { return double(squared[i]) <= near * near; };
-  const int margin = int(std::ceil(near));  // a joint along the border is no border between regions
-  double least = 1;
-  for (const Vector2d& step : {lattice.first, lattice.second}) {
+namespace {
+
+/// Where an exemplar has joints, and how near any pixel is to one.
+class JointMap {
+ public:
+  JointMap(const Elements& elements, bool wraps)
+      : size_(elements.size),
+        wraps_(wraps),
+        near_(std::max(1.5, typical_side(elements) / 16)),
+        joints_(border_pixels(elements.at, size_, wraps)),
+        squared_(squared_distances(joints_, size_, wraps)) {}
+
+  /// How surely joints come again a step further: 0, no more than by chance; 1, all of them.
+  double in_step(const Vector2d& step) const {
     const int dx = int(std::floor(step.x() + 0.5)), dy = int(std::floor(step.y() + 0.5));
+    const int margin = int(std::ceil(near_));  // a joint along the border is no border between regions
     int64_t all = 0, again = 0, pixels = 0, chance = 0;
-    for (int y = 0; y < size.height; y++)
-      for (int x = 0; x < size.width; x++) {
+    for (int y = 0; y < size_.height; y++)
+      for (int x = 0; x < size_.width; x++) {
         int u = x + dx, v = y + dy;
-        if (wraps)
-          u = wrap(u, size.width), v = wrap(v, size.height);
-        else if (u < margin || v < margin || u >= size.width - margin || v >= size.height - margin)
+        if (wraps_)
+          u = wrap(u, size_.width), v = wrap(v, size_.height);
+        else if (u < margin || v < margin || u >= size_.width - margin || v >= size_.height - margin)
           continue;
-        const size_t to = size_t(v) * size_t(size.width) + size_t(u);
+        const bool near = double(squared_[size_t(v) * size_t(size_.width) + size_t(u)]) <= near_ * near_;
         pixels++;
-        chance += is_near(to);
-        if (!joints[size_t(y) * size_t(size.width) + size_t(x)]) continue;
+        chance += near;
+        if (!joints_[size_t(y) * size_t(size_.width) + size_t(x)]) continue;
         all++;
-        again += is_near(to);
+        again += near;
       }
     if (all == 0 || chance == pixels) return 0;  // nothing is told where all pixels are near a joint
     const double by_chance = double(chance) / double(pixels), share = double(again) / double(all);
-    least = std::min(least, (share - by_chance) / (1 - by_chance));
+    return std::max(0.0, (share - by_chance) / (1 - by_chance));
   }
-  return std::max(0.0, least);
+  double in_step(const Lattice& lattice) const {
+    return lattice.rank < 2 ? 0 : std::min(in_step(lattice.first), in_step(lattice.second));
+  }
+
+ private:
+  Size size_;
+  bool wraps_;
+  double near_;
+  std::vector<uint8_t> joints_;
+  std::vector<int64_t> squared_;
+};
+
+}  // namespace
+
+bool are_in_step(const Elements& elements, const Lattice& lattice, bool wraps) {
+  return JointMap(elements, wraps).in_step(lattice) >= elements_tuning->least_in_step;
+}
+
+int most_few_elements() {
+  return elements_tuning->few;
+}
+
+Lattice lattice_of_few(const Elements& elements) {
+  if (elements.count > elements_tuning->few) return {};
+  const JointMap joints(elements, true);
+  for (int cells = elements.count; cells > 1; cells--) {
+    Lattice best;
+    best.certainty = elements_tuning->least_in_step;
+    for (const Lattice& l : lattices_around(elements.size, cells))
+      if (const double in_step = joints.in_step(l); in_step >= best.certainty) {
+        best = l;
+        best.certainty = in_step;
+      }
+    if (best.rank > 0) return best;
+  }
+  return {};
 }
 
 }  // namespace terrazzo

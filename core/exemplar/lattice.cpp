@@ -290,4 +290,16 @@ void LatticePhase::find_promising_steps() {
     }
 }
 
+std::vector<Lattice> lattices_around(Size exemplar, int cells) {
+  std::vector<Lattice> out;
+  for (int across = 1; across <= cells; across++) {
+    if (cells % across != 0) continue;
+    const int down = cells / across;
+    const double width = double(exemplar.width) / across, height = double(exemplar.height) / down;
+    // Of whole shifts by the exemplar's width over all cells there are as many as rows.
+    for (int shift = 0; shift < down; shift++) out.push_back({2, {width, 0}, {width * shift / down, height}, 0});
+  }
+  return out;
+}
+
 }  // namespace terrazzo

@@ -63,6 +63,9 @@ struct Lattice {
   }
 };
 
+/// All lattices of so many whole cells around an exemplar that tiles (Hermite normal form), of certainty 0.
+std::vector<Lattice> lattices_around(Size exemplar, int cells);
+
 /// Where along an axis in which a surface wraps around a lattice bends until the surface holds a whole number of cells:
 /// `length` pixels of the finest level from `begin` on, around the border. Elsewhere it stays as it is.
 struct LatticeGap {

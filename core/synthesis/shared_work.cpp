@@ -12,7 +12,6 @@ namespace {
 struct SharedWorkTuning {
   double shortest_brick = 64;
   double surest_lattice = 0.4;
-  double least_in_step = 0.75;
   double surest_courses = 0.9;
   double shortest_course = 24;
 };
@@ -26,10 +25,6 @@ const Tunable<SharedWorkTuning> shared_work_tuning(
       "of cells that repeat, from which on elements are laid in phase with them rather than anywhere. Higher: "
       "straight rows bend; lower: stones that vary overlap",
       "element_layout"},
-     {&SharedWorkTuning::least_in_step, "least_in_step", "share of joints",
-      "that come again one step of the lattice further, from which on the same holds however unsure it is. Higher: "
-      "tiles of thin joints overlap; lower: rough bricks stand in rows",
-      "element_layout", 0, 1},
      {&SharedWorkTuning::surest_courses, "surest_courses", "certainty",
       "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
       "squeezed between others; lower: stones that lie in rough courses are cut",
@@ -49,9 +44,8 @@ Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
 
 /// Whether elements lie in phase with a lattice of cells.
 bool is_grid(const Lattice& lattice, const Appearance& appearance) {
-  return lattice.rank == 2 &&
-         (lattice.certainty >= shared_work_tuning->surest_lattice ||
-          joints_in_step(*appearance.elements(), lattice, appearance.wraps()) >= shared_work_tuning->least_in_step);
+  return lattice.rank == 2 && (lattice.certainty >= shared_work_tuning->surest_lattice ||
+                               are_in_step(*appearance.elements(), lattice, appearance.wraps()));
 }
 
 /// How the exemplar repeats. Where controls say what goes where, a band that comes once does not: it may be one of the

@@ -62,7 +62,7 @@ void compute_elements(NodeContext& node) {
 NodeType elements_node() {
   NodeType t;
   t.name = "elements";
-  t.version = 2;
+  t.version = 3;
   t.category = "analysis";
   t.summary = "Parts an exemplar into its elements: stones, bricks, slates, tiles";
   t.help =
@@ -77,7 +77,7 @@ NodeType elements_node() {
                image_port("picture", "each element in a colour of its own, to look at")};
   t.params = {{.name = "least_certainty",
                .type = ParamType::number,
-               .fallback = 0.3,
+               .fallback = sure_elements,
                .help = "Elements found with less certainty are not used. Higher accepts fewer; 0 takes what there is.",
                .min = 0,
                .max = 1}};

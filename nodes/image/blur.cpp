@@ -21,7 +21,7 @@ void compute_blur(NodeContext& node) {
 NodeType blur_node() {
   NodeType t;
   t.name = "blur";
-  t.version = 4;
+  t.version = 5;
   t.category = "image";
   t.summary = "Gaussian blur";
   t.help =

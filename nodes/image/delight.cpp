@@ -134,7 +134,7 @@ NodeType delight_node() {
   NodeType t;
   t.name = "delight";
   t.category = "image";
-  t.version = 2;
+  t.version = 3;
   t.summary = "Takes the light out of a base colour that was photographed in the sun";
   t.help =
       "Slow light: a side that is brighter than the other, a vignette, a pool of light (homomorphic filtering; "

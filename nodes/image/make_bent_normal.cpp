@@ -34,7 +34,7 @@ OutputForecasts infer_make_bent_normal(const Params&, const InputForecasts& inpu
 NodeType make_bent_normal_node() {
   NodeType t;
   t.name = "make_bent_normal";
-  t.version = 3;
+  t.version = 4;
   t.category = "image";
   t.summary = "Makes a bent normal map from a height map";
   t.help =

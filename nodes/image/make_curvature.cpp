@@ -93,7 +93,7 @@ OutputForecasts infer_make_curvature(const Params&, const InputForecasts& inputs
 NodeType make_curvature_node() {
   NodeType t;
   t.name = "make_curvature";
-  t.version = 3;
+  t.version = 4;
   t.category = "image";
   t.summary = "Makes a curvature map from a height map or a normal map";
   t.help =

@@ -91,7 +91,7 @@ std::vector<std::string> check_make_height(const Params& params) {
 NodeType make_height_node() {
   NodeType t;
   t.name = "make_height";
-  t.version = 3;
+  t.version = 4;
   t.category = "image";
   t.summary = "Makes a height map from a normal map";
   t.help =

@@ -41,7 +41,7 @@ OutputForecasts infer_make_normal(const Params&, const InputForecasts& inputs) {
 NodeType make_normal_node() {
   NodeType t;
   t.name = "make_normal";
-  t.version = 3;
+  t.version = 4;
   t.category = "image";
   t.summary = "Makes a normal map from a height map";
   t.help =

@@ -33,7 +33,7 @@ OutputForecasts infer_make_occlusion(const Params&, const InputForecasts& inputs
 NodeType make_occlusion_node() {
   NodeType t;
   t.name = "make_occlusion";
-  t.version = 3;
+  t.version = 4;
   t.category = "image";
   t.summary = "Makes an ambient occlusion map from a height map";
   t.help =

@@ -68,7 +68,7 @@ std::vector<std::string> check_resize(const Params& params) {
 NodeType resize_node() {
   NodeType t;
   t.name = "resize";
-  t.version = 4;
+  t.version = 5;
   t.category = "image";
   t.summary = "Scales the maps of a material";
   t.help =

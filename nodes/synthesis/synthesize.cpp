@@ -51,7 +51,7 @@ void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
   }
   const ShownElements shown = shown_elements(uv, *elements, node.task());
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
-  if (shown.are_broken())
+  if (shown.are_broken() && !are_in_step(*elements, appearance.lattice(), appearance.wraps()))
     node.warn(
         counts +
         ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "

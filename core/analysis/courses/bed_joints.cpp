@@ -16,7 +16,6 @@ namespace {
 constexpr int sections = 16;  // that a line is divided into
 
 struct BedJointsTuning {
-  double thicker = 0.02;
   double clearly_thicker = 1.1;
   double other_joint = 0.6;
   double least_course = 0.2;
@@ -26,23 +25,19 @@ struct BedJointsTuning {
 const Tunable<BedJointsTuning> bed_joints_tuning(
     "bed_joints",
     {
-        {&BedJointsTuning::thicker, "thicker", "share of a period",
-         "from one half of a thickness that is tried to the next. Higher: thick joints are found; lower: thin ones are "
-         "measured more exactly",
-         "not measured: taken over from the code before constants were listed", 0, 0.25},
         {&BedJointsTuning::clearly_thicker, "clearly_thicker", "factor",
          "by which a thicker joint must be clearer. Higher: thin joints; lower: rims of bricks belong to them",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BedJointsTuning::other_joint, "other_joint", "share of the clearest joint",
          "what another of the period must have. Higher: courses of two heights are taken for one; lower: marks along "
          "courses are taken for joints",
-         "not measured: taken over from the code before constants were listed", 0.05},
+         "What each rule decides", 0.05},
         {&BedJointsTuning::least_course, "least_course", "share of a period",
-         "higher: low courses are overlooked; lower: the rims of one joint are taken for two",
-         "not measured: taken over from the code before constants were listed", 0, 0.5},
+         "higher: low courses are overlooked; lower: the rims of one joint are taken for two", "What each rule decides",
+         0, 0.5},
         {&BedJointsTuning::thicknesses, "thicknesses", "thicknesses",
          "that are tried, from that of a pixel on. Higher: thick joints are found; costs time",
-         "not measured: taken over from the code before constants were listed", 1, 100},
+         "What each rule decides", 1, 100},
         {&BedJointsTuning::unlike_sections, "unlike_sections", "sections of sixteen",
          "of a line, which need not show the joint. Higher: broken joints are found; lower: marks that do not reach "
          "across are not",
@@ -139,9 +134,7 @@ BedJoints find_bed_joints(const CourseSheet& sheet, double period) {
   const std::vector<Line> lines = line_means(sheet);
   BedJoints out;
   double clearest = 0;
-  int half_breadth = -1;
-  for (int i = 0; i < bed_joints_tuning->thicknesses; i++) {
-    half_breadth = std::max(half_breadth + 1, int(i * bed_joints_tuning->thicker * period + 0.5));
+  for (int half_breadth = 0; half_breadth < bed_joints_tuning->thicknesses; half_breadth++) {
     const std::vector<double> ridges = folded_ridges(lines, period, half_breadth);
     const double clear = *std::ranges::max_element(ridges);
     if (clear <= bed_joints_tuning->clearly_thicker * clearest) continue;

@@ -22,17 +22,13 @@ struct CoursingTuning {
   double most_aligned = 0.3;
   double separability_by_themselves = 1.4;
   double most_aligned_by_themselves = 0.1;
-  double separability_to_learn = 0.8;
   double least_joints = 0.8;
-  double least_jointed = 0.4;
   double shortest_board = 5;
   double least_shown = 0.8;
   double least_astray = 0.6;
   double least_between = 0.15;
   double clear = 2;
   int least_of_kind = 2;
-  int least_courses = 3;
-  int least_inside = 3;
 };
 const Tunable<CoursingTuning> coursing_tuning(
     "coursing",
@@ -62,17 +58,9 @@ const Tunable<CoursingTuning> coursing_tuning(
         {&CoursingTuning::most_aligned_by_themselves, "most_aligned_by_themselves", "share of the joints",
          "as most_aligned, of joints that were learnt",
          "not measured: the demands were measured together, not one by one"},
-        {&CoursingTuning::separability_to_learn, "separability_to_learn", "deviations",
-         "of joints like bed joints, for others to be learnt. Higher: fewer walls are laid; lower: joints are learnt "
-         "where there are none",
-         "not measured: the demands were measured together, not one by one"},
         {&CoursingTuning::least_joints, "least_joints", "joints to a course",
          "higher: floors of long boards are left as they are; lower: courses are laid that can hardly be cut",
          "not measured: the demands were measured together, not one by one"},
-        {&CoursingTuning::least_jointed, "least_jointed", "share of the courses",
-         "that have a joint. Higher: floors of long boards are left as they are; lower: few courses have all the "
-         "joints",
-         "not measured: taken over from the code before constants were listed"},
         {&CoursingTuning::shortest_board, "shortest_board", "course heights",
          "from which on bricks count as boards. Higher: less is laid; lower: bricks with faint joints are laid",
          "not measured: taken over from the code before constants were listed"},
@@ -83,7 +71,7 @@ const Tunable<CoursingTuning> coursing_tuning(
         {&CoursingTuning::least_astray, "least_astray", "joints to each brick of a lattice",
          "that do not come again with it. Higher: lattices keep bricks whole by themselves; lower: bricks are laid "
          "that are whole already",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&CoursingTuning::least_between, "least_between", "share of the variance",
          "that lies between bricks. Higher: bricks that differ are left to the lattice; lower: those are laid of which "
          "no one can tell two halves",
@@ -95,13 +83,6 @@ const Tunable<CoursingTuning> coursing_tuning(
         {&CoursingTuning::least_of_kind, "least_of_kind", "courses",
          "of each kind. Higher: less is laid; lower: one course comes all over",
          "not measured: the demands were measured together, not one by one", 1},
-        {&CoursingTuning::least_courses, "least_courses", "courses",
-         "in all. Higher: less is laid; lower: there is hardly anything to choose from",
-         "not measured: the demands were measured together, not one by one", 1},
-        {&CoursingTuning::least_inside, "least_inside", "rows",
-         "of a course that belong to no joint. Higher: thin courses are not laid; lower: their joints are guessed from "
-         "a row or two",
-         "not measured: taken over from the code before constants were listed", 1},
     });
 
 /// How far joints across and what is between them lie apart at least, in deviations, and how many go on in the course
@@ -229,14 +210,9 @@ double usual_brick(const std::vector<ExemplarCourse>& courses) {
 
 /// Whether joints can be separated from bricks, and bricks do end.
 bool are_separable(const std::vector<ExemplarCourse>& courses, double separability, const Demands& demands) {
-  double joints = 0, jointed = 0;
-  for (const ExemplarCourse& c : courses) {
-    const size_t of_course = sure_joints(c).size();
-    joints += double(of_course);
-    jointed += of_course > 0 ? 1 : 0;
-  }
-  const auto count = double(courses.size());
-  if (joints < coursing_tuning->least_joints * count || jointed < coursing_tuning->least_jointed * count) return false;
+  double joints = 0;
+  for (const ExemplarCourse& c : courses) joints += double(sure_joints(c).size());
+  if (joints < coursing_tuning->least_joints * double(courses.size())) return false;
   const bool boards = usual_brick(courses) >= coursing_tuning->shortest_board * (courses[0].end - courses[0].begin);
   return separability >= (boards ? demands.boards : demands.bricks);
 }
@@ -266,7 +242,7 @@ SeparableCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, 
   HeadJoints head_joints(sheet, courses, m.half_joint);
   std::erase_if(courses, [&](const ExemplarCourse& c) {
     const CourseInside inside(c, m.half_joint);
-    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < coursing_tuning->least_inside;
+    return inside.begin < 0 || inside.end > sheet.breadth || inside.end <= inside.begin;
   });
   if (int(courses.size()) < coursing_tuning->least_of_kind) return {};
   const double separability = head_joints.separability();
@@ -274,8 +250,7 @@ SeparableCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, 
   if (separability < of_joints_like_beds().boards) return {};
   std::vector<std::vector<double>> likeness = find_head_joints(courses, head_joints, task);
   if (are_separable(courses, separability, of_joints_like_beds())) return {courses, of_joints_like_beds()};
-  if (separability < coursing_tuning->separability_to_learn || !head_joints.learn_from(courses, std::move(likeness)))
-    return {};
+  if (!head_joints.learn_from(courses, std::move(likeness))) return {};
   m.separability = std::min(m.separability, head_joints.separability());
   find_head_joints(courses, head_joints, task);
   if (!are_separable(courses, head_joints.separability(), of_joints_by_themselves())) return {};
@@ -314,7 +289,6 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     out.courses.insert(out.courses.end(), found.courses.begin(), found.courses.end());
     most_aligned = std::min(most_aligned, found.met.most_aligned);
   }
-  if (int(out.courses.size()) < coursing_tuning->least_courses) return {};
   if (shown_share(out.courses, sheet.breadth) < coursing_tuning->least_shown) return {};
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
   // themselves.

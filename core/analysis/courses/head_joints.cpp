@@ -22,8 +22,6 @@ struct HeadJointsTuning {
   double sure = 0.75;
   double unsure = 0.4;
   double outstanding_deviations = 4;
-  double least_learnt = 3;
-  double least_learnt_each = 0.5;
   double margin_of_joint = 1.6;
   double margin = 0.12;
   int most_samples = 1 << 17;
@@ -35,34 +33,27 @@ const Tunable<HeadJointsTuning> head_joints_tuning(
         {&HeadJointsTuning::regularised, "regularised", "share of the mean variance",
          "added to each trait. Higher: traits that vary little count for less; lower: noise in them is taken for a "
          "difference",
-         "not measured: taken over from the code before constants were listed", 0.000000001},
+         "What each rule decides", 0.000000001},
         {&HeadJointsTuning::surely_bed, "surely_bed", "share of half a joint",
          "around its middle, of which joints are learnt. Higher: more pixels; lower: no rims of bricks",
-         "not measured: taken over from the code before constants were listed", 0, 1},
+         "What each rule decides", 0, 1},
         {&HeadJointsTuning::sure, "sure", "likelihood of a joint, 0..1",
-         "higher: faint joints are missed; lower: marks within bricks are taken for joints",
-         "not measured: taken over from the code before constants were listed"},
+         "higher: faint joints are missed; lower: marks within bricks are taken for joints", "What each rule decides"},
         {&HeadJointsTuning::unsure, "unsure", "likelihood of a joint, 0..1",
          "down to which a joint goes on to its sides. Higher: two near one another are kept apart; lower: one that is "
          "worn in its middle is not taken for two",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&HeadJointsTuning::outstanding_deviations, "outstanding_deviations", "deviations",
          "by which columns must stand out for joints to be learnt of them. Higher: only clear joints are learnt; "
          "lower: marks within bricks are, too",
          "not measured: only with and without were compared"},
-        {&HeadJointsTuning::least_learnt, "least_learnt", "joints",
-         "must stand out. Higher: less is learnt; lower: joints are learnt of chance",
-         "not measured: taken over from the code before constants were listed"},
-        {&HeadJointsTuning::least_learnt_each, "least_learnt_each", "joints to a course",
-         "the same. Higher: less is learnt; lower: joints are learnt of chance",
-         "not measured: taken over from the code before constants were listed"},
         {&HeadJointsTuning::margin_of_joint, "margin_of_joint", "half breadths of a joint",
          "that a course loses to its bed joints on each side. Higher: worn bricks have no rim; lower: thin courses "
          "keep rows",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&HeadJointsTuning::margin, "margin", "share of a course",
          "that it loses at least. Higher: bed joints may be uneven; lower: thin courses keep rows",
-         "not measured: taken over from the code before constants were listed", 0, 0.5},
+         "What each rule decides", 0, 0.5},
         {&HeadJointsTuning::most_samples, "most_samples", "pixels",
          "higher: joints are learnt more exactly of large exemplars; costs time", "not measured: bounds the time", 1},
         {&HeadJointsTuning::unlike_sections, "unlike_sections", "sections of six",
@@ -254,14 +245,12 @@ bool HeadJoints::learn_from(const std::vector<ExemplarCourse>& courses, std::vec
   }
   const double least = head_joints_tuning->outstanding_deviations * deviation_of_lesser(likeness);
   std::vector<std::vector<int>> joints;
-  double found = 0;
+  bool found = false;
   for (const std::vector<double>& columns : likeness) {
     joints.push_back(joint_peaks(columns, least, 2 * half_breadth_ + 2));
-    found += double(joints.back().size());
+    found |= !joints.back().empty();
   }
-  if (found <
-      std::max(head_joints_tuning->least_learnt, head_joints_tuning->least_learnt_each * double(courses.size())))
-    return false;
+  if (!found) return false;
 
   Samples samples(sheet_, half_breadth_);
   for (size_t i = 0; i < courses.size(); i++) samples.add_columns(CourseInside(courses[i], half_breadth_), joints[i]);

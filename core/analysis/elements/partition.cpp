@@ -20,7 +20,7 @@ struct PartitionTuning {
   double weak = 0.35;
   double thin = 2.5;
   double compact_enough = 0.5;
-  int fewest = 5;
+  int fewest = 4;
   double largest = 0.4;
 };
 const Tunable<PartitionTuning> partition_tuning(
@@ -49,7 +49,7 @@ const Tunable<PartitionTuning> partition_tuning(
          "from which on shapes count no more. Higher: long boards are less sure; lower: networks pass for elements",
          "elements", 0.01, 1},
         {&PartitionTuning::fewest, "fewest", "elements", "in an exemplar that has any",
-         "not measured: fewer are no choice for a synthesis", 1},
+         "not measured: fewer are no two by two tiles", 1},
         {&PartitionTuning::largest, "largest", "of the exemplar", "that the largest element may take up",
          "not measured: what is left has too few others", 0, 1},
     });

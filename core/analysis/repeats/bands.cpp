@@ -22,7 +22,6 @@ struct BandsTuning {
   double multiple = 1.5;
   double clearly_better = 1.15;
   double better = 0.005;
-  double least_rise = 0.04;
   double near_best = 0.03;
   double least_turned = 0.3;
   double seen = 1.3;
@@ -37,7 +36,7 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::least_of_one, "least_of_one", "correlation",
          "by how much lines that come again only once must be more alike. Higher: longer periods need more proof; "
          "lower: an exemplar may show two periods only, and chance ones are taken",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BandsTuning::expected_deviation, "expected_deviation", "share of the mean",
          "how much repeats are expected to vary. Higher: few repeats count for less; lower: longer periods of few "
          "repeats win",
@@ -49,11 +48,11 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::deviations, "deviations", "deviations",
          "what nearly all of many repeats exceed. Higher: uneven courses are less certain; lower: chance is taken for "
          "courses",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BandsTuning::deviations_of_few, "deviations_of_few", "deviations times repeats",
          "the same, in addition, divided by their number. Higher: few repeats are less certain; lower: chance is taken "
          "for courses",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BandsTuning::often, "often", "periods",
          "how many there must be for certainty to rise by what lines have in common. Higher: fewer exemplars profit; "
          "lower: chance does",
@@ -61,7 +60,7 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::often_counts, "often_counts", "factor",
          "what such certainty is of that of all lines. Higher: thin joints are surer; lower: they are too little of "
          "all there is",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BandsTuning::multiple, "multiple", "periods found before",
          "from which on a longer one must be clearly better. Higher: multiples win more easily; lower: small "
          "corrections must be clear, too",
@@ -69,18 +68,14 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::clearly_better, "clearly_better", "factor",
          "by which a multiple must be better. Higher: courses of several kinds are taken for one; lower: multiples of "
          "the true period win",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BandsTuning::better, "better", "correlation",
          "by which any period must be better. Higher: the shortest of alike periods wins; lower: their noise decides",
-         "not measured: taken over from the code before constants were listed"},
-        {&BandsTuning::least_rise, "least_rise", "pixels per pixel",
-         "of lines that are not level. Higher: slightly slanted stripes are not looked for; lower: level ones are "
-         "found aslant",
-         "not measured: what rises less is looked for among level bands"},
+         "What each rule decides"},
         {&BandsTuning::near_best, "near_best", "share of a period",
          "within which the most certain one is looked for. Higher: coarse steps do no harm; costs time. Lower: less "
          "time",
-         "not measured: taken over from the code before constants were listed", 0, 0.5},
+         "What each rule decides", 0, 0.5},
         {&BandsTuning::least_turned, "least_turned", "correlation",
          "of orientations, by which every second band must differ from its neighbours. Higher: mirrored columns are "
          "taken for one another; lower: chance doubles periods",
@@ -88,17 +83,17 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::seen, "seen", "periods",
          "how many of the longest one the exemplar must show. Higher: long periods are surer; lower: longer ones are "
          "looked for",
-         "not measured: taken over from the code before constants were listed", 1},
+         "What each rule decides", 1},
         {&BandsTuning::step, "step", "pixels",
          "between the periods that are tried. Higher: less time; lower: narrow peaks are not missed",
          "not measured: periods are looked for more finely near the best", 0.001},
         {&BandsTuning::fine_step, "fine_step", "pixels",
          "the same near the best one. Higher: less time; lower: a period is known more exactly",
-         "not measured: taken over from the code before constants were listed", 0.0001},
+         "What each rule decides", 0.0001},
         {&BandsTuning::most_repeats, "most_repeats", "repeats",
          "higher: more repeats are averaged; costs time. Lower: those far off, where a period that is not quite right "
          "has drifted, have no say",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&BandsTuning::slants, "slants", "slants from level to diagonal",
          "higher: thin stripes are not missed; costs time",
          "not measured: the best is looked for more finely in any case", 1},
@@ -234,8 +229,8 @@ Slant slant_of_stripes(const Correlation& r) {
   const int slants = bands_tuning->slants;
   for (const bool courses : {true, false})
     for (int step = -slants; step <= slants; step++) {
+      if (step == 0) continue;
       const double rise = double(step) / slants;
-      if (std::abs(rise) < bands_tuning->least_rise) continue;
       if (const double differ = line_correlation(r, courses, rise, 0); differ > best.differ)
         best = {courses, rise, differ};
     }

@@ -17,9 +17,7 @@ namespace {
 struct BondsTuning {
   double averaged = 0.6;
   double least_distinct = 0.15;
-  double most_off = 0.1;
   double fewest_cells = 6;
-  double most_bands = 4;
 };
 const Tunable<BondsTuning> bonds_tuning(
     "bonds",
@@ -30,14 +28,8 @@ const Tunable<BondsTuning> bonds_tuning(
          "not measured: most of a band, but little of the next", 0, 10},
         {&BondsTuning::least_distinct, "least_distinct", "distinctness",
          "higher: fewer bonds are found; lower: bricks of all widths get a bond that they do not have", "bonds"},
-        {&BondsTuning::most_off, "most_off", "share of a band",
-         "by which a step may be off a whole number of bands. Higher: more bonds are found; lower: less chance",
-         "not measured: taken over from the code before constants were listed"},
         {&BondsTuning::fewest_cells, "fewest_cells", "cells of the exemplar",
          "higher: less chance; lower: long bricks get their bond", "not measured: fewer cells are alike by chance"},
-        {&BondsTuning::most_bands, "most_bands", "bands",
-         "over which a step may lead. Higher: bonds of many courses are found; lower: less chance",
-         "not measured: steps over more bands are alike by chance"},
     });
 
 /// How much lines across the bands differ from the next, all channels together, as one channel. Grain differs at random
@@ -73,10 +65,7 @@ Lattice bond_of(const Planes& planes, const Lattice& bands, const Task& task) {
   Lattice out = cell.lattice;
   for (Vector2d* v : {&out.first, &out.second}) {
     double& across = bands.first.y() != 0 ? v->y() : v->x();
-    const double steps = std::floor(across / breadth + 0.5);
-    if (std::abs(across / breadth - steps) > bonds_tuning->most_off || std::abs(steps) > bonds_tuning->most_bands)
-      return bands;
-    across = steps * breadth;
+    across = std::floor(across / breadth + 0.5) * breadth;
   }
   return out.cell_area() * bonds_tuning->fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
 }

@@ -1,6 +1,7 @@
 #include "core/analysis/repeats/border_joints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@ struct BorderJointsTuning {
   int breadth = 3;
   double same_joint = 0.05;
   double unlike_most = 2.5;
+  double steps_unlike_most = 5;
 };
 const Tunable<BorderJointsTuning> border_joints_tuning(
     "border_joints",
@@ -29,6 +31,9 @@ const Tunable<BorderJointsTuning> border_joints_tuning(
          "wrap_detection", 0, 1},
         {&BorderJointsTuning::unlike_most, "unlike_most", "mean distances of any two places",
          "that a joint has from all. Higher: joints that are close together are none; lower: lines of sand are",
+         "wrap_detection", 1, 1000},
+        {&BorderJointsTuning::steps_unlike_most, "steps_unlike_most", "mean changes across lines",
+         "that a step across the border has. Higher: worn chequered tiles do not wrap; lower: parts of crates do",
          "wrap_detection", 1, 1000},
     });
 
@@ -67,10 +72,15 @@ bool stands_out(const PixelLine& line, const std::vector<double>& means) {
   return between > within;
 }
 
+/// By channel, of pixels that count.
+std::vector<double> means_of(const SeenMap& map) {
+  return group_means(map, 1, [](size_t, size_t) { return size_t{0}; });
+}
+
 }  // namespace
 
 bool has_joint_along_border(const SeenMap& map) {
-  const std::vector<double> means = group_means(map, 1, [](size_t, size_t) { return size_t{0}; });
+  const std::vector<double> means = means_of(map);
   for (const bool rows : {true, false})
     for (const int i : {-1, 0})
       if (stands_out(line_of(map, rows, i), means)) return true;
@@ -108,6 +118,35 @@ bool is_joint_that_recurs(const SeenMap& map, bool rows) {
   }
   return nearest < border_joints_tuning->same_joint * all / inside &&
          all / inside > border_joints_tuning->unlike_most * any_two;
+}
+
+bool is_step_that_recurs(const SeenMap& map, bool rows) {
+  const int lines = map.lines(rows), breadth = border_joints_tuning->breadth;
+  const auto change = [&](int at) {
+    return step_between(line_of(map, rows, at - breadth), line_of(map, rows, at + breadth - 1)).distance;
+  };
+  const double border = change(0);
+  double nearest = std::numeric_limits<double>::max(), all = 0;
+  int inside = 0;
+  for (int i = 2 * breadth; i <= lines - 2 * breadth; i++, inside++) {
+    const double inner = change(i);
+    nearest = std::min(nearest, std::abs(inner - border));
+    all += inner;
+  }
+  return inside > 0 && nearest < border_joints_tuning->same_joint * border &&
+         border > border_joints_tuning->steps_unlike_most * all / inside;
+}
+
+bool is_joint(const SeenMap& map, bool rows) {
+  const std::vector<double> means = means_of(map);
+  return stands_out(line_of(map, rows, -1), means) && stands_out(line_of(map, rows, 0), means);
+}
+
+bool is_joint_by_itself(const SeenMap& map, bool rows) {
+  const std::vector<double> means = means_of(map);
+  const int beside = 2 * border_joints_tuning->breadth;
+  return is_joint(map, rows) && !stands_out(line_of(map, rows, -1 - beside), means) &&
+         !stands_out(line_of(map, rows, beside), means);
 }
 
 }  // namespace terrazzo

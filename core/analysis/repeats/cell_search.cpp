@@ -23,15 +23,12 @@ struct CellTuning {
   double least_errors = 4;
   double least_errors_of_parts = 6;
   double least_deviation = 0.03;
-  double least_gain = 0.05;
   double few_points = 1.3;
   double least_alike_of_drawn = 0.93;
-  double no_difference = 0.01;
   double near_whole = 0.15;
   double on_point = 0.15;
   int farthest = 5;
   int most_cells = 4;
-  int fewest_around = 4;
   int most_around = 12;
 };
 const Tunable<CellTuning> cell_tuning(
@@ -44,43 +41,36 @@ const Tunable<CellTuning> cell_tuning(
         {&CellTuning::longest, "longest", "shorter sides",
          "what the longer side of a cell may have, around an exemplar that tiles. Higher: bands are taken for cells; "
          "lower: long boards are not found",
-         "not measured: taken over from the code before constants were listed", 1},
+         "What each rule decides", 1},
         {&CellTuning::same_point, "same_point", "pixels",
          "within which points are the same around an exemplar that tiles. Higher: imprecise lattices count none twice; "
          "lower: fine cells have more points",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&CellTuning::good_enough, "good_enough", "share of the best score",
          "what a lattice must reach. Higher: the most distinct one wins; lower: denser ones that are less distinct win",
-         "not measured: taken over from the code before constants were listed", 0, 1},
+         "What each rule decides", 0, 1},
         {&CellTuning::same_area, "same_area", "factor",
          "up to which cells are of one size. Higher: larger ones that are more alike win; lower: the smallest wins",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&CellTuning::least_gap, "least_gap", "share of the correlation",
          "by which it must be lower on points that are others. Higher: denser lattices win; lower: cells that differ a "
          "little are kept apart",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&CellTuning::least_errors, "least_errors", "standard errors",
          "the same. Higher: denser lattices win; lower: chance decides",
          "not measured: hundreds of lattices are compared with one another"},
         {&CellTuning::least_errors_of_parts, "least_errors_of_parts", "standard errors",
          "the same where multiples of one lattice are compared with it. Higher: chequered tiles become one; lower: "
          "alike ones are kept apart",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&CellTuning::least_deviation, "least_deviation", "share of the correlation",
          "of points, for that comparison. Higher: few points say less; lower: those that happen to agree decide",
          "not measured: deviations of few points say little", 0.000001},
-        {&CellTuning::least_gain, "least_gain", "share of the correlation",
-         "by which a larger multiple must lift it. Higher: the smallest multiple wins; lower: patterns of several "
-         "tiles come out whole",
-         "not measured: taken over from the code before constants were listed"},
         {&CellTuning::few_points, "few_points", "points",
          "whose share a lattice loses of its score. Higher: few points say less; lower: large cells are found",
          "not measured: few points may stand out by chance"},
         {&CellTuning::least_alike_of_drawn, "least_alike_of_drawn", "correlation",
          "higher: fewer drawn patterns are rounded to whole pixels; lower: photographs are, too", "regularity", 0, 1},
-        {&CellTuning::no_difference, "no_difference", "correlation",
-         "what rounding may take of it. Higher: more is rounded; lower: steps that are no whole pixels stay",
-         "not measured: taken over from the code before constants were listed"},
         {&CellTuning::near_whole, "near_whole", "pixels",
          "what a step may be off whole ones to be rounded. Higher: drawn patterns come out exact; lower: photographs "
          "keep their steps",
@@ -88,20 +78,16 @@ const Tunable<CellTuning> cell_tuning(
         {&CellTuning::on_point, "on_point", "steps",
          "within which a point is another lattice's, too. Higher: imprecise lattices share points; lower: those near "
          "by tell them apart",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&CellTuning::farthest, "farthest", "steps from the origin",
          "at which a lattice is judged. Higher: chance lattices fail; lower: those that are a little off do not",
-         "not measured: taken over from the code before constants were listed", 1, 100},
+         "What each rule decides", 1, 100},
         {&CellTuning::most_cells, "most_cells", "cells",
          "of multiples that are compared with a lattice. Higher: larger patterns of tiles are found; costs time",
          "not measured: taken over from the code before constants were listed"},
-        {&CellTuning::fewest_around, "fewest_around", "cells of an exemplar that tiles",
-         "of which all lattices are tried. Higher: fewer are; lower: exemplars made to tile that hold parts of "
-         "themselves twice are taken for regular",
-         "not measured: exemplars that were made to tile often hold two or three parts"},
         {&CellTuning::most_around, "most_around", "cells of an exemplar that tiles",
-         "the same. Higher: large cells are not missed; costs time", "not measured: of more cells more peaks are seen",
-         0, 1000},
+         "of which, and of fewer, all lattices are tried. Higher: large cells are not missed; costs time",
+         "not measured: of more cells more peaks are seen", 0, 1000},
     });
 
 /// The shortest vectors that span the same lattice (Lagrange and Gauss).
@@ -272,9 +258,7 @@ Lattice rounded_if_drawn(const Correlation& r, const Lattice& l) {
     if ((rounded - *v).lpNorm<Eigen::Infinity>() > cell_tuning->near_whole) return l;
     *v = rounded;
   }
-  const double alike = whole.is_valid() ? on_points(r, whole) : 0;
-  return alike >= cell_tuning->least_alike_of_drawn && alike >= on_points(r, l) - cell_tuning->no_difference ? whole
-                                                                                                             : l;
+  return whole.is_valid() && on_points(r, whole) >= cell_tuning->least_alike_of_drawn ? whole : l;
 }
 
 class CellSearch {
@@ -350,16 +334,9 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   for (size_t p = 0; p < peaks.size(); p++)
     for (size_t q = p + 1; q < peaks.size(); q++) search.add(peaks[p], peaks[q]);
   for (const Lattice& l : further) search.add(l.first, l.second);
-  // Of few cells few peaks are seen; all the lattices can be tried. (Not those of two or three cells: exemplars that
-  // were made to tile often hold parts of themselves twice.)
-  for (int cells = cell_tuning->fewest_around; r.wraps() && cells <= cell_tuning->most_around; cells++)
-    for (int across = 1; across <= cells; across++) {
-      if (cells % across != 0) continue;
-      const int down = cells / across;
-      const double width = double(r.exemplar().width) / across, height = double(r.exemplar().height) / down;
-      // Of whole shifts by the exemplar's width over all cells there are as many as rows (Hermite normal form).
-      for (int shift = 0; shift < down; shift++) search.add({width, 0}, {width * shift / down, height});
-    }
+  // Of few cells few peaks are seen; all the lattices can be tried.
+  for (int cells = 2; r.wraps() && cells <= cell_tuning->most_around; cells++)
+    for (const Lattice& l : lattices_around(r.exemplar(), cells)) search.add(l.first, l.second);
   const Candidate* best = search.best();
   if (!best) return {};
   Lattice out{2, best->a, best->b, std::clamp(best->on.mean() - deviation(best->on), 0.0, 1.0)};
@@ -387,7 +364,7 @@ Lattice without_false_repeats(const Correlation& r, const Lattice& lattice, doub
         if (c.on.count() < 3 || c.on.mean() <= 0 || !is_worse(all, c, cell_tuning->least_errors_of_parts)) continue;
         // Of the correlation on the sublattice's points, what the others lack.
         const double gap = (1 - all.on.mean() / c.on.mean()) * cells / (cells - 1);
-        if (gap <= largest + cell_tuning->least_gain) continue;
+        if (gap <= largest) continue;
         largest = gap;
         best.first = c.a;
         best.second = c.b;

@@ -13,7 +13,6 @@ struct LagCorrelationTuning {
   double least_overlap = 0.16;
   double grain = 0.8;
   double coarse = 10;
-  double least_coarse = 2;
 };
 const Tunable<LagCorrelationTuning> lag_correlation_tuning(
     "lag_correlation",
@@ -23,26 +22,21 @@ const Tunable<LagCorrelationTuning> lag_correlation_tuning(
          "not measured: what repeats after fewer is grain", 2},
         {&LagCorrelationTuning::least_overlap, "least_overlap", "share of the exemplar",
          "what of it must lie on itself at a lag. Higher: lags are surer; lower: long repeats are found",
-         "not measured: taken over from the code before constants were listed", 0, 1},
+         "What each rule decides", 0, 1},
         {&LagCorrelationTuning::grain, "grain", "pixels",
          "deviation of a light blur. Higher: noise drowns less of what repeats; lower: thin joints stay",
-         "not measured: taken over from the code before constants were listed", 0, 64},
+         "What each rule decides", 0, 64},
         {&LagCorrelationTuning::coarse, "coarse", "parts of the shorter side",
          "the deviation of what does not count as a detail. Higher: large cells are taken away, too; lower: gradients "
          "drown the repeats",
-         "not measured: taken over from the code before constants were listed", 1},
-        {&LagCorrelationTuning::least_coarse, "least_coarse", "pixels",
-         "the same of tiny exemplars. Higher: more of them counts as details; lower: less",
-         "not measured: taken over from the code before constants were listed", 0, 1000},
+         "What each rule decides", 1},
     });
 
 /// Details only: what varies slowly would drown the repeats.
 Planes without_gradients(const Planes& in, const Task& task) {
   Planes out = blurred(in, lag_correlation_tuning->grain, Beyond::mirrored, task);
-  const Planes coarse = blurred(out,
-                                std::max(lag_correlation_tuning->least_coarse,
-                                         std::min(in.size.width, in.size.height) / lag_correlation_tuning->coarse),
-                                Beyond::mirrored, task);
+  const double coarseness = std::min(in.size.width, in.size.height) / lag_correlation_tuning->coarse;
+  const Planes coarse = blurred(out, coarseness, Beyond::mirrored, task);
   for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
   return out;
 }

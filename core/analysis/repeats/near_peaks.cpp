@@ -10,7 +10,6 @@ namespace terrazzo {
 namespace {
 
 struct NearPeaksTuning {
-  double least_peak = 0.02;
   double strong = 0.5;
   int most_peaks = 44;
   int strongest = 5;
@@ -18,18 +17,15 @@ struct NearPeaksTuning {
 const Tunable<NearPeaksTuning> near_peaks_tuning(
     "near_peaks",
     {
-        {&NearPeaksTuning::least_peak, "least_peak", "correlation",
-         "higher: faint repeats are not seen; lower: noise counts, too, and costs time",
-         "not measured: taken over from the code before constants were listed"},
         {&NearPeaksTuning::strong, "strong", "share of a strong peak",
          "what others must reach. Higher: less time; lower: cells whose peaks are faint are tried",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&NearPeaksTuning::most_peaks, "most_peaks", "peaks",
          "the nearest, of which all pairs are tried. Higher: cells are not missed; costs time, with its square",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&NearPeaksTuning::strongest, "strongest", "peaks",
          "that may be chance: the next says what is strong. Higher: more peaks are tried; lower: few may decide",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
     });
 
 }  // namespace
@@ -40,12 +36,12 @@ std::vector<Vector2d> near_peaks(const Correlation& r) {
     double value;
   };
   std::vector<Peak> peaks;
-  const double shortest = shortest_repeat(), least_peak = near_peaks_tuning->least_peak;
+  const double shortest = shortest_repeat();
   for (int y = 0; y < r.lags().height - 3; y++)
     for (int x = y == 0 ? 1 : 4 - r.lags().width; x < r.lags().width - 3; x++) {
       if (x * x + y * y < shortest * shortest || !r.covers(x, y)) continue;
       const double v = r.at(x, y);
-      bool highest = v > least_peak;
+      bool highest = v > 0;
       for (int j = -2; j <= 2 && highest; j++)
         for (int i = -2; i <= 2 && highest; i++) highest = r.at(x + i, y + j) <= v;
       if (!highest) continue;

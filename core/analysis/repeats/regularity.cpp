@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/analysis/elements/find_elements.h"
 #include "core/analysis/repeats/bands.h"
 #include "core/analysis/repeats/bonds.h"
 #include "core/analysis/repeats/cell_search.h"
@@ -36,11 +37,11 @@ const Tunable<RegularityTuning> regularity_tuning(
         {&RegularityTuning::smallest_cell, "smallest_cell", "pixels",
          "finer cells are put together two by two. Higher: coarse levels keep more pieces "
          "apart; lower: they see nothing of such cells and mix them",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&RegularityTuning::least_distinct, "least_distinct", "distinctness",
          "from which on cells say more than the bands they lie in. Higher: courses without a "
          "bond; lower: bonds by chance",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&RegularityTuning::told_twice, "told_twice", "factor",
          "on the distinctness of cells that colours and joints tell, each by themselves. Higher: chance is taken for "
          "cells; lower: worn tiles are torn",
@@ -142,6 +143,17 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
+/// Of chequered tiles those are alike that are a step along and a step down, and neighbours are not. Of two by two, no
+/// others tell.
+Lattice chequered_if_told(const Correlation& values, const Lattice& tiles) {
+  if (tiles.rank != 2) return tiles;
+  const Vector2d diagonal = tiles.first + tiles.second;
+  if (!values.covers(diagonal.x(), diagonal.y())) return tiles;
+  const double neighbours = std::max(values.at(tiles.first), values.at(tiles.second));
+  if (neighbours >= 0 || values.at(diagonal) - neighbours < regularity_tuning->least_alike_of_few) return tiles;
+  return {2, 2 * tiles.first, diagonal, tiles.certainty};
+}
+
 /// The highest correlation of all lags of so many pixels and more, up to half the exemplar's sides: parts of it that
 /// were shown twice to make it tile lie farther apart.
 double highest_from(const Correlation& r, int least_lag) {
@@ -175,8 +187,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     values.push_back(correlate(v->planes, v->counts.values, task));
     joints.push_back(correlate(edges.back(), v->counts.values, task));
   }
-  const Correlation of_joints = pooled(joints);
-  const Repetition found = searched(pooled(values), of_joints, least_certainty);
+  const Correlation of_values = pooled(values), of_joints = pooled(joints);
+  const Repetition found = searched(of_values, of_joints, least_certainty);
   Lattice best = found.lattice;
   if (best.rank > 0) best = told_by_orientation(best, views, task);
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
@@ -188,18 +200,23 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
+  best = chequered_if_told(of_values, best);
   if (best.rank < 2 && views.size() == 1)
     if (const Lattice bands = lattice_of_single_bands(largest, edges.front(), best, task); bands.rank > 0) best = bands;
   if (best.rank == 1)
     if (const Lattice bond = bond_of(largest.planes, best, task); bond.certainty >= least_certainty) best = bond;
-  const bool too_few = best.rank < 2 && !wraps && std::ranges::any_of(edges, lines_cross);
-  if (best.rank == 0) return {best, too_few};
+  FoundLattice out;
+  out.too_few = best.rank < 2 && !wraps && std::ranges::any_of(edges, lines_cross);
+  out.has_lines = best.rank > 0 || std::ranges::any_of(edges, has_lines);
+  out.lattice = best;
+  if (best.rank == 0) return out;
   for (Vector2d* v : {&best.first, &best.second}) *v *= largest.scale;
   const Size size{largest.seen.width, largest.seen.height};
   best = best.fitted(size, wraps, wraps);
   if (best.rank == 2 && best.cell_area() < regularity_tuning->smallest_cell * regularity_tuning->smallest_cell)
     best = two_by_two(best, size, wraps);
-  return {best, too_few};
+  out.lattice = best;
+  return out;
 }
 
 bool may_have_lattice(const Features& features, double least_certainty, const Task& task) {
@@ -215,9 +232,20 @@ bool may_have_lattice(const Features& features, double least_certainty, const Ta
   return false;
 }
 
+Lattice lattice_of_few_elements(const Features& features, const Lattice& found, const Task& task) {
+  if (found.rank == 2 && found.cell_area() * most_few_elements() < double(features.size().area())) return found;
+  const ElementsPtr elements = find_elements(features, task);
+  if (!elements || elements->certainty < sure_elements || are_in_step(*elements, found, true)) return found;
+  const Lattice of_few = lattice_of_few(*elements);
+  return of_few.rank > 0 ? of_few : found;
+}
+
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
-  return find_lattice({view_of(weighted_planes(features, task), allowed_pixels(features), whole(features.size()))},
-                      least_certainty, task);
+  const Planes planes = weighted_planes(features, task);
+  FoundLattice found =
+      find_lattice({view_of(planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
+  if (found.has_lines && features.wraps()) found.lattice = lattice_of_few_elements(features, found.lattice, task);
+  return found;
 }
 
 }  // namespace terrazzo

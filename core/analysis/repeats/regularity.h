@@ -11,6 +11,7 @@ struct FoundLattice {
   Lattice lattice;
   /// Joints cross, but the exemplar holds too few cells to find the lattice.
   bool too_few = false;
+  bool has_lines = false;  ///< level or upright ones stand out, or bands
 };
 
 /// Finds the lattice of an exemplar, or of several of one surface at one scale, from the autocorrelation of all
@@ -20,6 +21,10 @@ struct FoundLattice {
 FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_certainty, const Task& task);
 /// The same for the allowed area of an exemplar.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
+
+/// Of an exemplar that tiles and shows too few tiles or bricks for their correlation to tell: what their joints follow.
+/// `found`, a lattice found otherwise, if it has more cells, or if there are none that are sure. Throws Cancelled.
+Lattice lattice_of_few_elements(const Features& features, const Lattice& found, const Task& task);
 
 /// A quick look at half the size, or less of large exemplars: false if nothing in the exemplar repeats nearly well
 /// enough for a lattice of that certainty. Throws Cancelled.

@@ -19,6 +19,8 @@ struct StraightLinesTuning {
   double least_parallel = 0.4;
   double same_lines = 0.7;
   double other_lines = 0.3;
+  double least_beside = 0.5;
+  double least_missed = 0.05;
   double nearly_all = 0.6;
   int most_repeats = 8;
 };
@@ -39,20 +41,27 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
          "regularity", 0, 1},
         {&StraightLinesTuning::least_parallel, "least_parallel", "share of the variance",
          "the same along one axis only. Higher: fewer boards are seen; lower: layers of rock are taken for them",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&StraightLinesTuning::same_lines, "same_lines", "correlation",
          "of lines that repeat. Higher: the lines of an exemplar are taken to differ; lower: different ones are taken "
          "to repeat",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&StraightLinesTuning::other_lines, "other_lines", "correlation",
          "up to which lines deny bands found otherwise. Higher: they deny more; lower: wrong bands stay",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
+        {&StraightLinesTuning::least_beside, "least_beside", "of the share of lines as bands have",
+         "that others across them must hold to part those into cells. Higher: panels over a rail are torn; lower: "
+         "boards with few head joints are cells",
+         "regularity", 0, 10},
+        {&StraightLinesTuning::least_missed, "least_missed", "share of the variance",
+         "of lines that cells found otherwise miss. Higher: frames around a fine pattern are torn; lower: results "
+         "repeat larger parts",
+         "regularity", 0, 1},
         {&StraightLinesTuning::nearly_all, "nearly_all", "share of the variance",
          "that bands which come once hold. Higher: painted stripes are cut; lower: rock with a dark edge comes in rows",
          "regularity", 0, 1},
         {&StraightLinesTuning::most_repeats, "most_repeats", "lines in an exemplar",
-         "higher: narrower lines are found to repeat; lower: less chance",
-         "not measured: taken over from the code before constants were listed"},
+         "higher: narrower lines are found to repeat; lower: less chance", "What each rule decides"},
     });
 
 /// What of all variance is differences between lines along one axis, and after how many pixels lines come again.
@@ -62,6 +71,7 @@ struct StraightLines {
   std::vector<double> profile;
 
   int count() const { return int(double(profile.size()) / period + 0.5); }
+  bool recurs_after(double distance) const { return count() > 1 && distance == period; }
 };
 
 double correlation_around(const std::vector<double>& profile, double lag) {
@@ -114,20 +124,44 @@ StraightLines straight_lines_of(const Planes& plane, bool rows) {
   return out;
 }
 
+/// Cells that come as often as lines do which finer ones miss: seams between plates with a fine pattern. Rank 0 if none
+/// are missed.
+Lattice with_missed_lines(const Lattice& found, const StraightLines& rows, const StraightLines& columns) {
+  // Of threads of a few pixels, lines tell nothing.
+  const auto misses = [](const StraightLines& lines, double step) {
+    return step >= 1.5 * shortest_repeat() && step < lines.period &&
+           lines.share >= straight_lines_tuning->least_missed &&
+           least_correlation(lines.profile, step) <= straight_lines_tuning->other_lines;
+  };
+  const double along = std::abs(found.along_bands(true).x()), across = std::abs(found.along_bands(false).y());
+  const bool by_rows = misses(rows, across), by_columns = misses(columns, along);
+  if (!by_rows && !by_columns) return {};
+  return {2, {by_columns ? columns.period : along, 0}, {0, by_rows ? rows.period : across}, found.certainty};
+}
+
 }  // namespace
 
 Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, const Lattice& found) {
   const StraightLines rows = straight_lines_of(outlines, true), columns = straight_lines_of(outlines, false);
+  if (found.rank > 1) return with_missed_lines(found, rows, columns);
   const Vector2d down{0, rows.period}, right{columns.period, 0};
   const bool courses = rows.share >= straight_lines_tuning->least_parallel;
-  const double both = std::min(rows.share, columns.share);
-  // Thin joints are little of all there is, but tell if the lines of both axes recur and bands come as often as one of
-  // them.
-  const bool recur = rows.count() > 1 && columns.count() > 1 && found.rank == 1 &&
-                     (found.first.x() == 0 ? found.first.y() == rows.period : found.first.x() == columns.period);
-  const double least = recur ? straight_lines_tuning->least_crossing * straight_lines_tuning->recurring
-                             : std::max(straight_lines_tuning->least_crossing, found.certainty);
-  if (found.rank < 2 && both >= least) {
+  // Where nothing else repeats, and lines of one axis are not enough for courses, they make up for few of the other.
+  const bool together = found.rank == 0 && std::max(rows.share, columns.share) < straight_lines_tuning->least_parallel;
+  const double both = together ? std::sqrt(rows.share * columns.share) : std::min(rows.share, columns.share);
+  // Lines that bands found otherwise miss, or agree with, need not be surer than those. Thin joints are little of all
+  // there is, but tell if the lines of both axes recur and bands come as often as one of them.
+  const StraightLines& of_bands = found.first.x() == 0 ? rows : columns;
+  const double bands = found.first.sum();
+  const StraightLines& beside = found.first.x() == 0 ? columns : rows;
+  const bool agree = found.rank == 1 && of_bands.recurs_after(bands);
+  const bool missed =
+      found.rank == 1 && !agree && least_correlation(of_bands.profile, bands) <= straight_lines_tuning->other_lines;
+  const bool recur = agree && rows.count() > 1 && columns.count() > 1;
+  const double least = straight_lines_tuning->least_crossing * (recur ? straight_lines_tuning->recurring : 1);
+  const bool in_bands = agree && beside.share >= straight_lines_tuning->least_beside * of_bands.share;
+  const bool enough = both >= least && (recur || in_bands || missed || both >= found.certainty);
+  if (enough) {
     // Of bricks in a bond every second course, and every second line of its joints, is alike.
     const Vector2d diagonal = right + down;
     const bool bond =
@@ -136,7 +170,7 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
     return {2, bond ? Vector2d(2 * right) : right, bond ? diagonal : down, both};
   }
   const StraightLines& lines = courses ? rows : columns;
-  if (lines.share < straight_lines_tuning->least_parallel || found.rank > 1) return {};
+  if (lines.share < straight_lines_tuning->least_parallel) return {};
   // Bands found otherwise stay, unless lines deny them.
   const double period = courses ? found.first.y() : found.first.x();
   if (found.rank == 1 &&
@@ -164,6 +198,11 @@ Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines
 
 bool lines_cross(const Planes& outlines) {
   return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
+         straight_lines_tuning->least_crossing;
+}
+
+bool has_lines(const Planes& outlines) {
+  return std::max(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
          straight_lines_tuning->least_crossing;
 }
 

@@ -20,5 +20,7 @@ Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines
 
 /// Whether straight lines run from border to border in both directions, as joints between tiles.
 bool lines_cross(const Planes& outlines);
+/// The same in one direction at least, as joints between courses.
+bool has_lines(const Planes& outlines);
 
 }  // namespace terrazzo

@@ -22,7 +22,7 @@ namespace terrazzo {
 namespace {
 
 struct WrapDetectionTuning {
-  double beside_seam = 1.5;
+  double beside_seam = 1.6;
   double inside = 1.35;
   double slack = 1.25;
   double least_certainty = 0.75;
@@ -42,7 +42,7 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
         {&WrapDetectionTuning::beside_seam, "beside_seam", "steps beside it",
          "what the step across the seam may be. Higher: rough joints along borders go on; lower: parts cut out are "
          "seen",
-         "not measured: taken over from the code before constants were listed"},
+         "wrap_detection"},
         {&WrapDetectionTuning::inside, "inside", "mean steps inside",
          "what the step across the seam may be. Higher: parts cut out are taken to wrap; lower: exemplars that wrap "
          "are not",
@@ -50,10 +50,10 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
         {&WrapDetectionTuning::slack, "slack", "misfits inside",
          "what windows across the seam may have. Higher: parts cut out are taken to wrap; lower: exemplars that wrap "
          "are not",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&WrapDetectionTuning::least_certainty, "least_certainty", "certainty",
          "of a lattice that may deny it. Higher: only drawn patterns are denied; lower: cells that are none deny it",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&WrapDetectionTuning::most_excess, "most_excess", "share of a side",
          "by which cells may come out uneven. Higher: less is denied; lower: imprecise lattices deny what wraps",
          "not measured: taken over from the code before constants were listed"},
@@ -62,7 +62,7 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
          "wrap_detection", 0, 10},
         {&WrapDetectionTuning::window, "window", "pixels a side",
          "of the windows that are compared. Higher: larger features must fit; lower: less is unusual",
-         "not measured: taken over from the code before constants were listed", 1},
+         "What each rule decides", 1},
         {&WrapDetectionTuning::samples, "samples", "windows",
          "along a seam or a line. Higher: their mean is surer; costs time", "not measured: bounds the time", 1},
         {&WrapDetectionTuning::lines, "lines", "lines inside",
@@ -119,29 +119,31 @@ class WindowSearch {
   std::unique_ptr<NearestPoints> search_;
 };
 
-/// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
-bool goes_on(const SeenMap& map, bool rows) {
-  return step_at(map, rows, 0).distance <=
-         wrap_detection_tuning->beside_seam * std::max(step_at(map, rows, -1).distance, step_at(map, rows, 1).distance);
-}
+/// How much values change from one border to the other, and from line to line inside.
+struct Steps {
+  double seam = 0, beside = 0, mean = 0, most = 0;
 
-/// Whether values change across the seam about as much as they do from line to line inside. Of gravel that was cut out
-/// anywhere, windows fit as well as any others, but no pixel fits its neighbour.
-bool steps_alike(const SeenMap& map, bool rows, const Task& task) {
+  /// Of gravel that was cut out anywhere, windows fit as well as any others, but no pixel fits its neighbour.
+  bool are_alike() const { return seam <= std::max(most, wrap_detection_tuning->inside * mean); }
+  bool go_on() const { return seam <= wrap_detection_tuning->beside_seam * beside; }
+};
+
+Steps steps_of(const SeenMap& map, bool rows, const Task& task) {
   const int lines = rows ? map.image->height() : map.image->width(),
             apart = std::max(1, lines / wrap_detection_tuning->steps);
-  double sum = 0, most_inside = 0;
+  Steps out{step_at(map, rows, 0).distance, std::max(step_at(map, rows, -1).distance, step_at(map, rows, 1).distance),
+            0, 0};
   int steps = 0;
   for (int i = 0; i + 1 < lines; i += apart) {
     task.check();
     const LineStep step = step_at(map, rows, i + 1);
     if (step.seen == 0) continue;
     steps++;
-    sum += step.distance;
-    most_inside = std::max(most_inside, step.distance);
+    out.mean += step.distance;
+    out.most = std::max(out.most, step.distance);
   }
-  return step_at(map, rows, 0).distance <=
-         std::max(most_inside, wrap_detection_tuning->inside * sum / std::max(1, steps));
+  out.mean /= std::max(1, steps);
+  return out;
 }
 
 /// How much less than windows inside those across a line look like the rest of their map, as a mean of all maps: 1 is
@@ -219,37 +221,83 @@ bool lines_fit_as_little(const Fit& fit, bool rows, double seam, const Task& tas
   return found >= enough;
 }
 
-/// Whether windows across the borders resemble the rest of the maps about as much as windows inside do, and values go
-/// on there.
-bool borders_fit(const std::vector<SeenMap>& maps, const Task& task) {
-  const auto all = [&](auto&& holds) { return std::ranges::all_of(maps, holds); };
-  const auto see_enough = [&](bool rows) {
-    return all([&](const SeenMap& map) { return step_at(map, rows, 0).seen >= wrap_detection_tuning->least_seen; });
-  };
-  if (!see_enough(true) || !see_enough(false)) return false;
-  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
-  // asked for.
-  std::optional<bool> joint;
-  const auto has_joint = [&] {
-    if (!joint) joint = std::ranges::any_of(maps, has_joint_along_border);
-    return *joint;
-  };
-  const auto steps_fit = [&](bool rows) {
-    return all([&](const SeenMap& map) {
-      return steps_alike(map, rows, task) || (goes_on(map, rows) && has_joint()) || is_joint_that_recurs(map, rows);
+/// What the borders of all maps show. What is rarely asked for is looked for when it is.
+class Borders {
+ public:
+  Borders(const std::vector<SeenMap>& maps, const Task& task) : maps_(maps) {
+    for (const bool rows : {true, false})
+      for (const SeenMap& map : maps) {
+        if (step_at(map, rows, 0).seen < wrap_detection_tuning->least_seen) return;
+        steps_[rows].push_back(steps_of(map, rows, task));
+      }
+    sees_enough_ = true;
+  }
+
+  const std::vector<SeenMap>& maps() const { return maps_; }
+  bool sees_enough() const { return sees_enough_; }
+  /// What a joint along the border shows across the seam may come nowhere else: it is then judged by itself.
+  bool have_joint() const {
+    if (!joint_) joint_ = std::ranges::any_of(maps_, has_joint_along_border);
+    return *joint_;
+  }
+  /// A joint that comes again inside.
+  bool joint_recurs(bool rows) const {
+    if (!recurs_[rows])
+      recurs_[rows] = std::ranges::any_of(maps_, [&](const SeenMap& map) { return is_joint_that_recurs(map, rows); });
+    return *recurs_[rows];
+  }
+  /// The same, or a step along both axes: chequered tiles.
+  bool recurs(bool rows) const {
+    return joint_recurs(rows) || std::ranges::any_of(maps_, [](const SeenMap& map) {
+             return is_step_that_recurs(map, true) && is_step_that_recurs(map, false);
+           });
+  }
+  bool steps_fit(bool rows) const {
+    return all(rows, [&](const Steps& s, const SeenMap& map) {
+      return s.are_alike() || recurs(rows) || joint_goes_on(s, map, rows);
     });
-  };
-  if (!steps_fit(true) || !steps_fit(false)) return false;
-  const Fit fit(maps, task);
-  if (!fit.can_tell()) return false;
-  const auto windows_fit = [&](bool rows) {
-    const double seam = fit.across_seam(rows);
-    return seam <= wrap_detection_tuning->slack ||
-           std::ranges::any_of(maps, [&](const SeenMap& map) { return is_joint_that_recurs(map, rows); }) ||
-           (all([&](const SeenMap& map) { return goes_on(map, rows); }) &&
-            (has_joint() || lines_fit_as_little(fit, rows, seam, task)));
-  };
-  return windows_fit(true) && windows_fit(false);
+  }
+  bool joint_goes_on(bool rows) const {
+    return all(rows, [&](const Steps& s, const SeenMap& map) { return joint_goes_on(s, map, rows); });
+  }
+  bool go_on(bool rows) const {
+    return all(rows, [](const Steps& s, const SeenMap&) { return s.go_on(); });
+  }
+  bool may_part_tiles(bool rows) const {
+    return go_on(rows) || joint_recurs(rows) ||
+           std::ranges::any_of(maps_, [&](const SeenMap& map) { return is_joint(map, rows); });
+  }
+
+ private:
+  bool joint_goes_on(const Steps& s, const SeenMap& map, bool rows) const {
+    return (s.go_on() && have_joint()) || is_joint_by_itself(map, rows);
+  }
+  template <typename Holds>
+  bool all(bool rows, const Holds& holds) const {
+    for (size_t i = 0; i < maps_.size(); i++)
+      if (!holds(steps_[rows][i], maps_[i])) return false;
+    return true;
+  }
+
+  const std::vector<SeenMap>& maps_;
+  std::array<std::vector<Steps>, 2> steps_;  // of each map, along columns and rows
+  bool sees_enough_ = false;
+  mutable std::optional<bool> joint_;
+  mutable std::array<std::optional<bool>, 2> recurs_;
+};
+
+bool steps_fit(const Borders& borders) {
+  return borders.sees_enough() && borders.steps_fit(true) && borders.steps_fit(false);
+}
+
+/// Whether windows across the borders resemble the rest of the maps about as much as windows inside do.
+bool windows_fit(const Borders& borders, const Task& task) {
+  const Fit fit(borders.maps(), task);
+  return fit.can_tell() && std::ranges::all_of(std::array{true, false}, [&](bool rows) {
+           const double seam = fit.across_seam(rows);
+           return seam <= wrap_detection_tuning->slack || borders.recurs(rows) || borders.joint_goes_on(rows) ||
+                  (borders.go_on(rows) && lines_fit_as_little(fit, rows, seam, task));
+         });
 }
 
 /// Whether neighbouring lines are more alike than any two: the borders of white noise fit together wherever it is cut.
@@ -276,6 +324,13 @@ bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task
                                 lattice.fits(size, false, true, wrap_detection_tuning->most_excess * size.height));
 }
 
+/// Whether few tiles, parted as if the exemplar tiled, lie in cells around its borders: joints that those cut in halves
+/// fit nothing inside.
+bool few_cells_tell(const Material& material, const ImagePtr& mask, const Task& task) {
+  const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), true, mask);
+  return lattice_of_few_elements(*features, {}, task).rank == 2;
+}
+
 }  // namespace
 
 bool borders_meet(const Material& material, const Task& task) {
@@ -283,17 +338,22 @@ bool borders_meet(const Material& material, const Task& task) {
   const auto tell = [&](bool rows) {
     return std::ranges::any_of(maps, [&](const SeenMap& map) { return neighbours_are_alike(map, rows); });
   };
-  return tell(true) && tell(false) && borders_fit(maps, task);
+  if (!tell(true) || !tell(false)) return false;
+  const Borders borders(maps, task);
+  return steps_fit(borders) && windows_fit(borders, task);
 }
 
 bool seems_to_tile(const Material& material, const Task& task, const ImagePtr& mask) {
   const std::vector<SeenMap> maps = seen_maps(material, mask, 2 * wrap_detection_tuning->window, task);
+  if (maps.empty()) return false;
+  const Borders borders(maps, task);
+  if (!steps_fit(borders)) return false;
   // A joint that recurs lies exactly where cells begin, which a lattice found without the borders does not tell.
-  const auto on_joint = [&](bool rows) {
-    return std::ranges::any_of(maps, [&](const SeenMap& map) { return is_joint_that_recurs(map, rows); });
-  };
-  return !maps.empty() && borders_fit(maps, task) &&
-         (!cells_deny(material, mask, task) || (on_joint(true) && on_joint(false)));
+  if (windows_fit(borders, task) &&
+      (!cells_deny(material, mask, task) || (borders.joint_recurs(true) && borders.joint_recurs(false))))
+    return true;
+  return borders.have_joint() && borders.may_part_tiles(true) && borders.may_part_tiles(false) &&
+         few_cells_tell(material, mask, task);
 }
 
 }  // namespace terrazzo

@@ -54,7 +54,7 @@ TEST_CASE("another value of a constant changes what is found of an exemplar, and
   };
   for (const Found& found :
        {Found{bands, {{"bands.multiple", 4.5}, {"bands.deviations", 0.9}, {"lag_correlation.grain", 2}}},
-        Found{cells, {{"cell_search.farthest", 2}, {"cell_search.same_area", 3}, {"near_peaks.least_peak", 1}}},
+        Found{cells, {{"cell_search.farthest", 2}, {"cell_search.same_area", 3}, {"near_peaks.most_peaks", 2}}},
         Found{courses,
               {{"coursing.smallest_period", 30},
                {"bed_joints.unlike_sections", 2},

@@ -163,3 +163,23 @@ TEST_CASE("how many elements are whole is told, and doubtful results are warned 
   CHECK(made(two, false, {100, 100}).notes.size() <= 1);
   CHECK_FALSE(made(two, false, {100, 100}).says("too few to be laid"));
 }
+
+TEST_CASE("elements cut in phase with cells that bring their joints together are not doubted") {
+  // Blurred noise, which says nothing of the squares that it is parted into.
+  const ImagePtr noise = make_image({96, 96}, 1, [](int x, int y, int) {
+    float sum = 0;
+    for (int k = 0; k < 16; k++) sum += float(unit_double(random_bits(3, (x + k % 4) % 96, (y + k / 4) % 96)));
+    return sum / 16;
+  });
+  Elements squares{{96, 96}, {}, 16, 1};
+  for (int i = 0; i < 96 * 96; i++) squares.at.push_back(uint16_t(i / 96 / 24 * 4 + i % 96 / 24));
+  const auto made = [&](int cell) {
+    const FeaturesPtr features = plain_features(noise, true)
+                                     ->with(Repeats(Lattice{2, {double(cell), 0}, {0, double(cell)}, 1}))
+                                     ->with(std::make_shared<const Elements>(squares));
+    const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+    return run_node("synthesize", {{"size", Size{240, 240}}, {"whole_bricks", false}}, {{"index", {index}}});
+  };
+  CHECK(made(16).says("the others are torn or melted together"));
+  CHECK_FALSE(made(24).says("the others are torn or melted together"));
+}

@@ -168,6 +168,10 @@ TEST_CASE("walls are left alone of which the border cuts a fifth") {
   CHECK(courses(91).empty());
 }
 
+TEST_CASE("two courses are enough to be laid") {
+  CHECK(find_coursing(*DrawnWall({240, 56}).appearance(), Task()).courses.size() == 2);
+}
+
 TEST_CASE("bricks that are all alike are left to a lattice that has them") {
   // Running bond: bricks of 64x40, every other course half a brick farther on.
   const auto wall = [](float tints) {

@@ -48,3 +48,79 @@ TEST_CASE("rows that differ at edges come as a band, clouds that are darker in t
   CHECK(found.first.y() == 256);
   CHECK(find_lattice(*surface(false), 0.08, Task()).lattice.rank == 0);
 }
+
+TEST_CASE("seams between plates with a fine pattern make cells as large as the plates") {
+  const auto plates = [](bool seams) {
+    return plain_features(make_image({192, 192}, 1,
+                                     [seams](int i, int j, int) {
+                                       const double grain = unit_double(random_bits(6, i, j));
+                                       if (seams && (i % 96 < 8 || j % 96 < 8)) return float(0.8 + 0.1 * grain);
+                                       return float((i % 8 < 4) == (j % 8 < 4) ? 0.3 : 0) + float(0.1 * grain);
+                                     }),
+                          true);
+  };
+  const Lattice found = find_lattice(*plates(true), 0.08, Task()).lattice;
+  REQUIRE(found.rank == 2);
+  CHECK(found.cell_area() == doctest::Approx(96 * 96));
+  CHECK(find_lattice(*plates(false), 0.08, Task()).lattice.cell_area() < 20 * 20);
+}
+
+TEST_CASE("panels over a rail that comes once are as wide as a panel, and as high as both") {
+  const auto wall = plain_features(make_image({192, 192}, 1,
+                                              [](int i, int j, int) {
+                                                const double grain = 0.2 * unit_double(random_bits(6, i / 2, j / 2));
+                                                if (j < 60) return float((j < 4 || j >= 56 ? 0.1 : 0.7) + grain);
+                                                const bool frame = i % 64 < 6 || i % 64 >= 58 || j < 66 || j >= 186;
+                                                return float((frame ? 0 : 0.8) + grain);
+                                              }),
+                                   true);
+  const Lattice found = find_lattice(*wall, 0.08, Task()).lattice;
+  REQUIRE(found.rank == 2);
+  CHECK(repeats_by(found, 64, 0));
+  CHECK(repeats_by(found, 0, 192));
+  CHECK(found.cell_area() == doctest::Approx(64 * 192));
+}
+
+TEST_CASE("bands that miss the lines of an exemplar do not hide its cell, those that agree with them are part of it") {
+  // Joints along both borders, and one more upright one.
+  const auto lattice = [](int joint, double band) {
+    Planes outlines{{96, 96}, 1, true, std::vector<float>(96 * 96, 0.f)};
+    for (int i = 0; i < 96 * 96; i++)
+      if (i % 96 < 2 || i / 96 < 4 || (i % 96 >= joint && i % 96 < joint + 2)) outlines.values[size_t(i)] = 1;
+    return lattice_of_lines(outlines, correlate(outlines, {}, Task()), {1, {band, 0}, {}, 0.9});
+  };
+  const Lattice missed = lattice(70, 12), agree = lattice(48, 48);
+  REQUIRE(missed.rank == 2);
+  CHECK(missed.cell_area() == doctest::Approx(96 * 96));
+  REQUIRE(agree.rank == 2);
+  CHECK(agree.cell_area() == doctest::Approx(48 * 96));
+}
+
+TEST_CASE("lines of one axis make up for few of the other, unless they are enough for courses") {
+  // Of each upright line only a part is there.
+  const auto lattice = [](double along, double down) {
+    Planes outlines{{96, 96}, 1, true, std::vector<float>(96 * 96)};
+    for (int i = 0; i < 96 * 96; i++) {
+      const bool line = (i / 96 % 96 < 3 && i % 96 < 96 * along) || (i % 96 < 3 && i / 96 < 96 * down);
+      outlines.values[size_t(i)] = line ? 1 : 0.5f * float(unit_double(random_bits(6, i)));
+    }
+    return lattice_of_lines(outlines, correlate(outlines, {}, Task()), {});
+  };
+  CHECK(lattice(0.8, 0.6).cell_area() == doctest::Approx(96 * 96));
+  CHECK(lattice(0.8, 0.1).rank == 0);
+  CHECK(lattice(1, 0.1).rank <= 1);
+}
+
+TEST_CASE("two by two chequered tiles that wrap repeat with their colours") {
+  const auto floor = plain_features(make_image({96, 96}, 1,
+                                               [](int i, int j, int) {
+                                                 const double grain = unit_double(random_bits(6, i, j));
+                                                 return float((i < 48) == (j < 48) ? 1 : 0) + float(0.2 * grain);
+                                               }),
+                                    true);
+  const Lattice found = find_lattice(*floor, 0.08, Task()).lattice;
+  REQUIRE(found.rank == 2);
+  CHECK(repeats_by(found, 48, 48));
+  CHECK(repeats_by(found, 96, 0));
+  CHECK(found.cell_area() == doctest::Approx(2 * 48 * 48));
+}

@@ -126,6 +126,52 @@ TEST_CASE("large tiles with a joint along the border and the same one inside til
   CHECK_FALSE(seems_to_tile(*tiles(40, 130), Task()));
 }
 
+TEST_CASE("two by two tiles tile though the joint along the border is unlike those inside; a part of tiles does not") {
+  // Tiles end in a dark rim and begin with a light joint, which is broader along the border.
+  const auto tiles = [](int shift, int side) {
+    return Material::of(make_image({side, side}, 1, [shift](int i, int j, int) {
+      const auto edge = [&](int at) {
+        const int in = (at + shift) % 80;
+        return in < (at < 3 ? 3 : 1) ? 0.6f : in > 76 ? -0.3f : 0.f;
+      };
+      const float grain = 0.1f * float(unit_double(random_bits(4, i, j)));
+      return 0.4f + 0.05f * float((i + shift) / 80 + 2 * ((j + shift) / 80)) + edge(i) + edge(j) + grain;
+    }));
+  };
+  CHECK(seems_to_tile(*tiles(0, 160), Task()));
+  CHECK_FALSE(seems_to_tile(*tiles(30, 130), Task()));
+}
+
+TEST_CASE("panels in a single row tile, though their bevels meet nowhere but along the border") {
+  // Heights go on, slopes jump from one bevel to the other.
+  const auto panels = [](int above) {
+    const auto depth = [above](int x, int y) {
+      return std::min({x % 48, 47 - x % 48, wrap(y + above, 96), 95 - wrap(y + above, 96), 4});
+    };
+    const ImagePtr height = make_image({192, 96 - above}, 1, [=](int x, int y, int) {
+      return 0.2f * float(depth(x, y)) + 0.02f * float(unit_double(random_bits(8, x, y)));
+    });
+    const ImagePtr slope = make_image({192, 96 - above}, 1, [=](int x, int y, int) {
+      return 0.5f + 0.2f * float(depth(x, y + 1) - depth(x, y)) + 0.02f * float(unit_double(random_bits(9, x, y)));
+    });
+    return Material::make("panels", {{"height", height}, {"roughness", slope}});
+  };
+  CHECK(seems_to_tile(*panels(0), Task()));
+  CHECK_FALSE(seems_to_tile(*panels(20), Task()));
+}
+
+TEST_CASE("two by two chequered tiles tile, though they touch more softly inside than across the border") {
+  const auto floor = [](int left) {
+    return Material::of(make_image({96 - left, 96}, 1, [left](int x, int y, int) {
+      const auto side = [](int i) { return std::clamp((i % 96 - 47.5) / 1.5, -1.0, 1.0); };
+      const double tile = side(x + left) * side(y);
+      return float(0.5 + 0.4 * tile + 0.05 * unit_double(random_bits(5, x, y)));
+    }));
+  };
+  CHECK(seems_to_tile(*floor(0), Task()));
+  CHECK_FALSE(seems_to_tile(*floor(48), Task()));
+}
+
 TEST_CASE("an odd number of chequered tiles does not tile, however smooth its borders; an even one does") {
   const auto chequered = [](double side) {
     return Material::of(make_image({192, 192}, 1, [side](int x, int y, int) {
