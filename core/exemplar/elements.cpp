@@ -58,11 +58,14 @@ class JointMap {
         joints_(border_pixels(elements.at, size_, wraps)),
         squared_(squared_distances(joints_, size_, wraps)) {}
 
-  /// How surely joints come again a step further: 0, no more than by chance; 1, all of them.
-  double in_step(const Vector2d& step) const {
+  /// How surely joints come again a step further: 0, no more than by chance; 1, all of them. Chance is that of any
+  /// pixel or, of bands (rank 1), of any in the same row or column: joints along them say nothing of cells.
+  double in_step(const Vector2d& step, const Lattice& bands) const {
     const int dx = int(std::floor(step.x() + 0.5)), dy = int(std::floor(step.y() + 0.5));
     const int margin = int(std::ceil(near_));  // a joint along the border is no border between regions
-    int64_t all = 0, again = 0, pixels = 0, chance = 0;
+    const std::vector<double> by_line = bands.rank == 1 ? near_shares(bands.first.y() != 0) : std::vector<double>();
+    int64_t all = 0, again = 0, pixels = 0, near_ones = 0;
+    double expected = 0;
     for (int y = 0; y < size_.height; y++)
       for (int x = 0; x < size_.width; x++) {
         int u = x + dx, v = y + dy;
@@ -70,22 +73,35 @@ class JointMap {
           u = wrap(u, size_.width), v = wrap(v, size_.height);
         else if (u < margin || v < margin || u >= size_.width - margin || v >= size_.height - margin)
           continue;
-        const bool near = double(squared_[size_t(v) * size_t(size_.width) + size_t(u)]) <= near_ * near_;
+        const bool near = is_near(u, v);
         pixels++;
-        chance += near;
+        near_ones += near;
         if (!joints_[size_t(y) * size_t(size_.width) + size_t(x)]) continue;
         all++;
         again += near;
+        if (!by_line.empty()) expected += by_line[size_t(bands.first.y() != 0 ? v : u)];
       }
-    if (all == 0 || chance == pixels) return 0;  // nothing is told where all pixels are near a joint
-    const double by_chance = double(chance) / double(pixels), share = double(again) / double(all);
-    return std::max(0.0, (share - by_chance) / (1 - by_chance));
+    if (all == 0 || near_ones == pixels) return 0;  // nothing is told where all pixels are near a joint
+    if (by_line.empty()) expected = double(all) * double(near_ones) / double(pixels);
+    return std::max(0.0, (double(again) - expected) / std::max(1.0, double(all) - expected));
   }
-  double in_step(const Lattice& lattice) const {
-    return lattice.rank < 2 ? 0 : std::min(in_step(lattice.first), in_step(lattice.second));
+  double in_step(const Lattice& lattice, const Lattice& bands) const {
+    return lattice.rank < 2 ? 0 : std::min(in_step(lattice.first, bands), in_step(lattice.second, bands));
   }
 
  private:
+  bool is_near(int x, int y) const {
+    return double(squared_[size_t(y) * size_t(size_.width) + size_t(x)]) <= near_ * near_;
+  }
+  /// Of each row, or column: the share of its pixels that are near a joint.
+  std::vector<double> near_shares(bool rows) const {
+    std::vector<double> out(size_t(rows ? size_.height : size_.width), 0.0);
+    const double length = rows ? size_.width : size_.height;
+    for (int y = 0; y < size_.height; y++)
+      for (int x = 0; x < size_.width; x++) out[size_t(rows ? y : x)] += is_near(x, y) / length;
+    return out;
+  }
+
   Size size_;
   bool wraps_;
   double near_;
@@ -93,27 +109,36 @@ class JointMap {
   std::vector<int64_t> squared_;
 };
 
+/// Whether the cells of a lattice are as high as such courses, or as wide as such columns.
+bool keeps_bands(const Lattice& l, const Lattice& bands) {
+  if (bands.rank != 1) return true;
+  const double breadth = bands.first.sum();
+  return std::abs(l.level_bands(bands.first.y() != 0).first.sum() - breadth) < breadth / 2;
+}
+
 }  // namespace
 
 bool are_in_step(const Elements& elements, const Lattice& lattice, bool wraps) {
-  return JointMap(elements, wraps).in_step(lattice) >= elements_tuning->least_in_step;
+  return JointMap(elements, wraps).in_step(lattice, {}) >= elements_tuning->least_in_step;
 }
 
 int most_few_elements() {
   return elements_tuning->few;
 }
 
-Lattice lattice_of_few(const Elements& elements) {
+Lattice lattice_of_few(const Elements& elements, const Lattice& bands) {
   if (elements.count > elements_tuning->few) return {};
   const JointMap joints(elements, true);
   for (int cells = elements.count; cells > 1; cells--) {
     Lattice best;
     best.certainty = elements_tuning->least_in_step;
-    for (const Lattice& l : lattices_around(elements.size, cells))
-      if (const double in_step = joints.in_step(l); in_step >= best.certainty) {
+    for (const Lattice& l : lattices_around(elements.size, cells)) {
+      if (!keeps_bands(l, bands)) continue;
+      if (const double in_step = joints.in_step(l, bands); in_step >= best.certainty) {
         best = l;
         best.certainty = in_step;
       }
+    }
     if (best.rank > 0) return best;
   }
   return {};

@@ -39,8 +39,10 @@ bool are_in_step(const Elements& elements, const Lattice& lattice, bool wraps);
 int most_few_elements();
 
 /// Of few elements of an exemplar that tiles: the densest lattice that they are in step with, of as many cells as there
-/// are elements or fewer; its certainty is the share of joints that come again. Rank 0 if there is none of two cells.
-Lattice lattice_of_few(const Elements& elements);
+/// are elements or fewer; its certainty is the share of joints that come again. `bands`: if of rank 1, courses or
+/// columns that are known: cells are as high, or as wide, and their own joints say nothing. Rank 0 if there is none of
+/// two cells.
+Lattice lattice_of_few(const Elements& elements, const Lattice& bands = {});
 
 /// Null: none are known.
 using ElementsPtr = std::shared_ptr<const Elements>;

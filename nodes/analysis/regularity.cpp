@@ -140,7 +140,8 @@ NodeType regularity_node() {
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =
       "Bricks, tiles and weaves repeat. The autocorrelation of all weighted channels gives the lattice vectors, or the "
-      "period of courses or columns, and how certain they are. Synthesis then keeps every pixel at its phase in the "
+      "period of courses or columns, and how certain they are; of an exemplar that tiles, also the lines between its "
+      "tiles and, of up to twelve, the joints around them. Synthesis then keeps every pixel at its phase in the "
       "lattice's cell, so that courses stay straight and tiles keep their size over any distance. Exemplars without a "
       "lattice pass through unchanged. If several exemplars lie side by side (\"combine\", \"variants\"; give their "
       "labels) each gets its own lattice; where lattices are alike, joints continue from one to the other.";

@@ -233,10 +233,14 @@ bool may_have_lattice(const Features& features, double least_certainty, const Ta
 }
 
 Lattice lattice_of_few_elements(const Features& features, const Lattice& found, const Task& task) {
-  if (found.rank == 2 && found.cell_area() * most_few_elements() < double(features.size().area())) return found;
+  const Size size = features.size();
+  const double cells = found.rank == 2   ? double(size.area()) / found.cell_area()
+                       : found.rank == 1 ? (found.first.x() == 0 ? size.height : size.width) / found.first.sum()
+                                         : 0;
+  if (features.mask() || cells > most_few_elements()) return found;
   const ElementsPtr elements = find_elements(features, task);
   if (!elements || elements->certainty < sure_elements || are_in_step(*elements, found, true)) return found;
-  const Lattice of_few = lattice_of_few(*elements);
+  const Lattice of_few = lattice_of_few(*elements, found);
   return of_few.rank > 0 ? of_few : found;
 }
 

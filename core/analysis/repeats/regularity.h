@@ -23,7 +23,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_c
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 /// Of an exemplar that tiles and shows too few tiles or bricks for their correlation to tell: what their joints follow.
-/// `found`, a lattice found otherwise, if it has more cells, or if there are none that are sure. Throws Cancelled.
+/// `found`, a lattice found otherwise, if it has more cells, if there are none that are sure, or if a mask hides some.
+/// Throws Cancelled.
 Lattice lattice_of_few_elements(const Features& features, const Lattice& found, const Task& task);
 
 /// A quick look at half the size, or less of large exemplars: false if nothing in the exemplar repeats nearly well

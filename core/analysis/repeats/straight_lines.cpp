@@ -21,6 +21,7 @@ struct StraightLinesTuning {
   double other_lines = 0.3;
   double least_beside = 0.5;
   double least_missed = 0.05;
+  double least_sharp = 0.02;
   double nearly_all = 0.6;
   int most_repeats = 8;
 };
@@ -57,6 +58,10 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
          "of lines that cells found otherwise miss. Higher: frames around a fine pattern are torn; lower: results "
          "repeat larger parts",
          "regularity", 0, 1},
+        {&StraightLinesTuning::least_sharp, "least_sharp", "share of the lines' variance",
+         "that lies between neighbours, along both axes, where lines part cells. Higher: soft frames are torn; lower: "
+         "clouds are repeated",
+         "regularity", 0, 1},
         {&StraightLinesTuning::nearly_all, "nearly_all", "share of the variance",
          "that bands which come once hold. Higher: painted stripes are cut; lower: rock with a dark edge comes in rows",
          "regularity", 0, 1},
@@ -69,6 +74,7 @@ struct StraightLines {
   double share = 0;
   double period = 0;
   std::vector<double> profile;
+  double sharp = 0;  ///< what of their variance lies between neighbours: clouds fade over many lines, joints do not
 
   int count() const { return int(double(profile.size()) / period + 0.5); }
   bool recurs_after(double distance) const { return count() > 1 && distance == period; }
@@ -109,7 +115,13 @@ StraightLines shares_of(const Planes& plane, bool rows) {
   const double length = rows ? width : height, count = double(profile.size());
   double between = 0;
   for (const double v : profile) between += v * v / length;
-  return {between / std::max(1e-12, variance), count, std::move(profile)};
+  double steps = 0, squares = 0;
+  for (size_t i = 0; i < profile.size(); i++) {
+    const double step = profile[(i + 1) % profile.size()] - profile[i];
+    steps += step * step / 2;
+    squares += profile[i] * profile[i];
+  }
+  return {between / std::max(1e-12, variance), count, std::move(profile), steps / std::max(1e-12, squares)};
 }
 
 StraightLines straight_lines_of(const Planes& plane, bool rows) {
@@ -160,7 +172,8 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
   const bool recur = agree && rows.count() > 1 && columns.count() > 1;
   const double least = straight_lines_tuning->least_crossing * (recur ? straight_lines_tuning->recurring : 1);
   const bool in_bands = agree && beside.share >= straight_lines_tuning->least_beside * of_bands.share;
-  const bool enough = both >= least && (recur || in_bands || missed || both >= found.certainty);
+  const bool sharp = std::min(rows.sharp, columns.sharp) >= straight_lines_tuning->least_sharp;
+  const bool enough = sharp && both >= least && (recur || in_bands || missed || both >= found.certainty);
   if (enough) {
     // Of bricks in a bond every second course, and every second line of its joints, is alike.
     const Vector2d diagonal = right + down;

@@ -248,9 +248,10 @@ class Borders {
   }
   /// The same, or a step along both axes: chequered tiles.
   bool recurs(bool rows) const {
-    return joint_recurs(rows) || std::ranges::any_of(maps_, [](const SeenMap& map) {
-             return is_step_that_recurs(map, true) && is_step_that_recurs(map, false);
-           });
+    if (!steps_recur_)
+      steps_recur_ = std::ranges::any_of(
+          maps_, [](const SeenMap& map) { return is_step_that_recurs(map, true) && is_step_that_recurs(map, false); });
+    return joint_recurs(rows) || *steps_recur_;
   }
   bool steps_fit(bool rows) const {
     return all(rows, [&](const Steps& s, const SeenMap& map) {
@@ -282,7 +283,7 @@ class Borders {
   const std::vector<SeenMap>& maps_;
   std::array<std::vector<Steps>, 2> steps_;  // of each map, along columns and rows
   bool sees_enough_ = false;
-  mutable std::optional<bool> joint_;
+  mutable std::optional<bool> joint_, steps_recur_;
   mutable std::array<std::optional<bool>, 2> recurs_;
 };
 

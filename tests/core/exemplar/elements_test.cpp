@@ -79,5 +79,16 @@ TEST_CASE("few elements have the densest lattice that their joints follow") {
   // Bricks that lie anywhere above one another change places in their own course only.
   check_steps(lattice_of_few(four_bricks(16)), {64, 0}, {0, 80});
   CHECK(lattice_of_few(stones_around({128, 96})).rank == 0);
+  // Boards of all lengths follow one another by their courses alone.
+  Elements boards{{128, 80}, {}, 4, 1};
+  for (int y = 0; y < 80; y++)
+    for (int x = 0; x < 128; x++) {
+      const int u = (x + (y < 40 ? 0 : 90)) % 128;
+      boards.at.push_back(uint16_t(y / 40 * 2 + (u < (y < 40 ? 30 : 75))));
+    }
+  CHECK(lattice_of_few(boards, {1, {0, 40}, {}, 0.9}).rank == 0);
+  check_steps(lattice_of_few(four_bricks(32), {1, {0, 40}, {}, 0.9}), {64, 0}, {32, 40});
+  // Bricks that change places with those of any course keep to courses.
+  CHECK(lattice_of_few(four_bricks(16), {1, {0, 40}, {}, 0.9}).rank == 0);
   CHECK(lattice_of_few(Elements{{8, 8}, std::vector<uint16_t>(64), 1, 1}).rank == 0);
 }

@@ -274,26 +274,6 @@ TEST_CASE("four parts of a texture that are half alike are no cells, though it t
   check_cell(lattice_of(ground(0.8)), 64, 0, 0, 64);
 }
 
-TEST_CASE("two by two tiles, and two courses of two stones, are told by their joints, however uneven those are") {
-  // Stones of their own grey, 80 x 60, whose hand-laid joints wander by up to three pixels.
-  const auto wall = [](int shift) {
-    return plain_features(make_image({160, 120}, 1,
-                                     [shift](int i, int j, int) {
-                                       const auto wander = [](int kind, int at) {
-                                         return int(random_bits(kind, at / 12) % 7) - 3;
-                                       };
-                                       const int y = wrap(j + wander(1, i), 120), row = y / 60;
-                                       const int x = wrap(i + row * shift + wander(2, j), 160);
-                                       const double grain = 0.1 * unit_double(random_bits(3, i, j));
-                                       if (y % 60 < 5 || x % 80 < 5) return float(0.9 + grain);
-                                       return float(0.2 + 0.2 * unit_double(random_bits(9, row, x / 80)) + grain);
-                                     }),
-                          true);
-  };
-  check_cell(lattice_of(wall(0)), 80, 0, 0, 60);
-  check_cell(lattice_of(wall(25)), 80, 0, 0, 120);
-}
-
 TEST_CASE("a herringbone that tiles and comes four times is found") {
   const double side = 192, step = side / 6;
   const FeaturesPtr f = plain_features(make_image({int(side), int(side)}, 1,

@@ -1,12 +1,15 @@
 #include "core/analysis/repeats/straight_lines.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <doctest/doctest.h>
 
 #include "core/analysis/repeats/regularity.h"
 #include "tests/exemplars.h"
 #include "tests/lattices.h"
+#include "tests/overrides.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -32,6 +35,32 @@ TEST_CASE("two by two tiles that wrap are told by thin joints, and so are two co
     CHECK(repeats_by(found, shift == 0 ? 96 : 192, 0));
     CHECK(repeats_by(found, shift, 96));
   }
+}
+
+TEST_CASE("two by two tiles, and two courses of two stones, are told by their joints, however uneven those are") {
+  // Stones of their own grey, 80 x 60, whose hand-laid joints wander by up to three pixels.
+  const auto wall = [](int shift) {
+    return plain_features(make_image({160, 120}, 1,
+                                     [shift](int i, int j, int) {
+                                       const auto wander = [](int kind, int at) {
+                                         return int(random_bits(kind, at / 12) % 7) - 3;
+                                       };
+                                       const int y = wrap(j + wander(1, i), 120), row = y / 60;
+                                       const int x = wrap(i + row * shift + wander(2, j), 160);
+                                       const double grain = 0.1 * unit_double(random_bits(3, i, j));
+                                       if (y % 60 < 5 || x % 80 < 5) return float(0.9 + grain);
+                                       return float(0.2 + 0.2 * unit_double(random_bits(9, row, x / 80)) + grain);
+                                     }),
+                          true);
+  };
+  const auto check_steps = [&](int shift, const Vector2d& first, const Vector2d& second) {
+    const Lattice found = find_lattice(*wall(shift), 0.08, Task()).lattice;
+    CHECK(found.rank == 2);
+    CHECK(found.first == first);
+    CHECK(found.second == second);
+  };
+  check_steps(0, {80, 0}, {0, 60});
+  check_steps(25, {80, 0}, {0, 120});
 }
 
 TEST_CASE("rows that differ at edges come as a band, clouds that are darker in the middle do not") {
@@ -123,4 +152,22 @@ TEST_CASE("two by two chequered tiles that wrap repeat with their colours") {
   CHECK(repeats_by(found, 48, 48));
   CHECK(repeats_by(found, 96, 0));
   CHECK(found.cell_area() == doctest::Approx(2 * 48 * 48));
+}
+
+TEST_CASE("clouds that fade over many lines are no cells, joints across them are") {
+  const auto surface = [](bool joints) {
+    return plain_features(
+        make_image({128, 128}, 1,
+                   [joints](int x, int y, int) {
+                     const auto fade = [](int at) { return std::cos(at * 2 * std::numbers::pi / 128); };
+                     const double cloud = std::exp(2 * (fade(x) + fade(y)) - 4);
+                     const bool joint = joints && (x < 3 || y < 3);
+                     return float(3 * cloud + (joint ? 1 : 0) + 0.02 * unit_double(random_bits(6, x, y)));
+                   }),
+        true);
+  };
+  CHECK(find_lattice(*surface(false), 0.08, Task()).lattice.rank == 0);
+  CHECK(find_lattice(*surface(true), 0.08, Task()).lattice.rank == 2);
+  const TuningOverride soft_lines_count("straight_lines.least_sharp", 0);
+  CHECK(find_lattice(*surface(false), 0.08, Task()).lattice.rank == 2);
 }
