@@ -77,6 +77,11 @@ std::vector<double> means_of(const SeenMap& map) {
   return group_means(map, 1, [](size_t, size_t) { return size_t{0}; });
 }
 
+/// Whether the lines on both sides of the border stand out of a map with such means.
+bool is_joint_of(const SeenMap& map, bool rows, const std::vector<double>& means) {
+  return stands_out(line_of(map, rows, -1), means) && stands_out(line_of(map, rows, 0), means);
+}
+
 }  // namespace
 
 bool has_joint_along_border(const SeenMap& map) {
@@ -138,14 +143,13 @@ bool is_step_that_recurs(const SeenMap& map, bool rows) {
 }
 
 bool is_joint(const SeenMap& map, bool rows) {
-  const std::vector<double> means = means_of(map);
-  return stands_out(line_of(map, rows, -1), means) && stands_out(line_of(map, rows, 0), means);
+  return is_joint_of(map, rows, means_of(map));
 }
 
 bool is_joint_by_itself(const SeenMap& map, bool rows) {
   const std::vector<double> means = means_of(map);
   const int beside = 2 * border_joints_tuning->breadth;
-  return is_joint(map, rows) && !stands_out(line_of(map, rows, -1 - beside), means) &&
+  return is_joint_of(map, rows, means) && !stands_out(line_of(map, rows, -1 - beside), means) &&
          !stands_out(line_of(map, rows, beside), means);
 }
 
