@@ -90,15 +90,24 @@ export class Editor {
   get layout() { return JSON.parse(fs.readFileSync(path.join(this.folder, 'graph.layout.json'), 'utf8')); }
   /// Waits until the positions are so.
   laidOut(holds, what) { return this.saved(() => holds(), `${what} (${fs.existsSync(path.join(this.folder, 'graph.layout.json')) ? JSON.stringify(this.layout) : 'no layout'})`); }
-  /// Waits until what is on the disk is so.
+  /// Waits until what is on the disk is so, and the page shows it.
   async saved(holds, what) {
     for (const end = Date.now() + 6000; ;) {
       try {
-        if (holds(this.json)) return;
+        if (holds(this.json)) return await this.caughtUp();
       } catch { /* a half-written file, or a node that is not there yet */ }
       if (Date.now() > end) assert.fail(`${what}, but the file says ${this.text}`);
       await new Promise((done) => setTimeout(done, 40));
     }
+  }
+
+  /// The program writes before the page hears of it: what is done to the page meanwhile is done to an older state. Some scenarios cut the page off, so this gives up.
+  async caughtUp() {
+    await this.page.evaluate(async () => {
+      const answer = await fetch('/api/state', {method: 'POST', headers: {'Content-Type': 'application/json'}, body: '{}'});
+      const {revision} = await answer.json();
+      for (let i = 0; i < 100 && Number(document.querySelector('main')?.dataset.revision) < revision; ++i) await new Promise((done) => setTimeout(done, 20));
+    }).catch(() => undefined);
   }
 
   card(name) { return this.page.locator(`.svelte-flow__node[data-id="${name}"]`); }
