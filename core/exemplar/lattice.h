@@ -39,6 +39,10 @@ struct Lattice {
   /// The way that those run, which need not be quite level: the shortest step of the lattice along x, or along y, of
   /// any length if the rank is 1; (0, 0) if it has none.
   Vector2d along_bands(bool courses) const;
+  /// Whether a band is as high, or as wide, as the exemplar. Of rank 1.
+  bool comes_once(Size exemplar) const { return first.x() >= exemplar.width || first.y() >= exemplar.height; }
+  /// Whether its cell is the whole exemplar.
+  bool is_single_cell(Size exemplar) const { return rank == 2 && cell_area() > 0.99 * double(exemplar.area()); }
   /// Of rank 2: how far along x or y, the farther of the two, it comes back: the length of a brick in its course.
   double longest_step() const;
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.

@@ -1,5 +1,6 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
+#include "core/exemplar/element_courses.h"
 #include "core/synthesis/state/lattice_origin.h"
 #include "core/synthesis/state/purpose.h"
 #include "core/synthesis/steps.h"
@@ -34,12 +35,21 @@ const Tunable<SharedWorkTuning> shared_work_tuning(
       "element_layout"}});
 
 /// Parts that repeat each in its own way keep to where they lie in the exemplar, and so does what controls place.
-Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
-  const Appearance& appearance = *index.appearance();
-  if (!appearance.repeats().parts.empty()) return {double(o.origin[0]), double(o.origin[1])};
-  if (!o.kept.empty()) return lattice_origin(appearance.lattice(), o.kept, o.size);
+Vector2d lattice_start(const Repeats& repeats, const SynthesisOptions& o) {
+  if (!repeats.parts.empty()) return {double(o.origin[0]), double(o.origin[1])};
+  if (!o.kept.empty()) return lattice_origin(repeats.lattice, o.kept, o.size);
   if (!o.controls.empty()) return {};
-  return random_lattice_origin(appearance.lattice(), random_bits(o.seed, Purpose::first_cell));
+  return random_lattice_origin(repeats.lattice, random_bits(o.seed, Purpose::first_cell));
+}
+
+/// Those of an exemplar that repeats as a whole only, or not surely, where they are laid anew.
+ElementCourses single_courses(const Appearance& appearance, const SynthesisOptions& options) {
+  const Lattice& l = appearance.lattice();
+  const bool as_whole = l.is_single_cell(appearance.size()) || (l.rank == 1 && l.comes_once(appearance.size()));
+  const bool unsure = l.rank == 1 && !keeps_to_courses(l);
+  const bool laid = options.whole_bricks && options.quality != Quality::draft && options.controls.empty();
+  if (!(as_whole || unsure) || !laid || !appearance.wraps() || !appearance.elements()) return {};
+  return element_courses(*appearance.elements());
 }
 
 /// Whether elements lie in phase with a lattice of cells.
@@ -50,18 +60,18 @@ bool is_grid(const Lattice& lattice, const Appearance& appearance) {
 
 /// How the exemplar repeats. Where controls say what goes where, a band that comes once does not: it may be one of the
 /// parts that they tell apart.
-Repeats repeats_of(const Appearance& appearance, const SynthesisOptions& options) {
+Repeats repeats_of(const Appearance& appearance, const ElementCourses& courses, const SynthesisOptions& options) {
+  if (!courses.empty()) return courses.lattice(appearance.size());
   const Lattice& l = appearance.lattice();
-  const bool comes_once =
-      l.rank == 1 && (l.first.x() >= appearance.size().width || l.first.y() >= appearance.size().height);
-  return comes_once && !options.controls.empty() ? Repeats() : appearance.repeats();
+  return l.rank == 1 && l.comes_once(appearance.size()) && !options.controls.empty() ? Repeats() : appearance.repeats();
 }
 
 /// Elements that lie in phase with a lattice of cells keep to it, and so do bricks and boards of straight courses.
 WholeElements whole_elements_of(const Appearance& appearance, const Repeats& repeats, const SynthesisOptions& options) {
   if (!options.whole_bricks || !has_elements(appearance)) return WholeElements::none;
   const Lattice& lattice = repeats.lattice;
-  if (!is_grid(lattice, appearance)) return keeps_to_courses(lattice) ? WholeElements::none : WholeElements::free;
+  if (!is_grid(lattice, appearance))
+    return keeps_to_courses(lattice) && options.kept.empty() ? WholeElements::none : WholeElements::free;
   const bool small = typical_side(*appearance.elements()) < shared_work_tuning->shortest_brick;
   if (!repeats.parts.empty()) return small ? WholeElements::none : WholeElements::free;
   return small ? WholeElements::completed : WholeElements::in_cells;
@@ -84,10 +94,11 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       options(o),
       task(t),
       levels(int(index.levels().size())),
-      repeats(repeats_of(*index.appearance(), options)),
+      courses(single_courses(*index.appearance(), options)),
+      repeats(repeats_of(*index.appearance(), courses, options)),
       lattice(repeats.lattice),
       gaps(options.kept.gaps(options.size)),
-      origin(lattice_start(index, options)),
+      origin(lattice_start(repeats, options)),
       controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task),
       elements(whole_elements_of(*index.appearance(), repeats, options)) {}
 

@@ -194,9 +194,10 @@ void start_where_kept(StepContext& c) {
 /// would keep stubs of joints.
 void lay_whole_bricks(StepContext& c) {
   const Appearance& appearance = *c.shared.index.appearance();
-  const Coursing coursing = find_coursing(appearance, c.task);
+  const ElementCourses& courses = c.shared.courses;
+  const Coursing coursing = courses.empty() ? find_coursing(appearance, c.task) : coursing_of(courses, appearance);
   const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
-  if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.task)) return;
+  if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.bits(Purpose::courses), c.task)) return;
   const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
   const int reach = step_tuning->seam_reach_around_bricks;
   c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,

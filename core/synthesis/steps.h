@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/exemplar/appearance.h"
+#include "core/exemplar/element_courses.h"
 #include "core/synthesis/state/comparison_window.h"
 #include "core/synthesis/state/control.h"
 #include "core/synthesis/state/purpose.h"
@@ -116,10 +117,11 @@ struct SharedWork {
   const SynthesisOptions& options;
   const Task& task;
   int levels;
-  Repeats repeats;   ///< of the exemplar, as far as they count in the result
-  Lattice lattice;   ///< theirs
-  LatticeGaps gaps;  ///< between kept pixels
-  Vector2d origin;   ///< where the lattice starts in the result
+  ElementCourses courses;  ///< of the exemplar, if it repeats as a whole only and they are laid anew
+  Repeats repeats;         ///< of the exemplar, as far as they count in the result
+  Lattice lattice;         ///< theirs
+  LatticeGaps gaps;        ///< between kept pixels
+  Vector2d origin;         ///< where the lattice starts in the result
   ControlPyramid controls;
   WholeElements elements;
   int finest = 0;  ///< the level that ends the work, for progress

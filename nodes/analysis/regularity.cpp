@@ -85,6 +85,7 @@ void compute_regularity(NodeContext& node) {
   const double least = node.number("least_certainty");
   Repeats repeats;
   bool too_few = false;
+  int courses = 0;
   if (node.text("mode") != "off" && labels) {
     BroughtTogether all = find_part_lattices(
         *features, label_places(labels, features->size(), node.task()),
@@ -96,6 +97,7 @@ void compute_regularity(NodeContext& node) {
   } else if (node.text("mode") != "off") {
     const FoundLattice found = lattice_of_all(node, *features);
     too_few = found.too_few;
+    courses = found.courses;
     repeats = found.lattice;
   }
   const int found_rank = repeats.lattice.rank;
@@ -107,7 +109,13 @@ void compute_regularity(NodeContext& node) {
         "there is a grid of joints, but with too few tiles, or too different ones, to find its lattice: results may "
         "break tiles. Crop the exemplar to whole tiles so that it tiles, use one with more tiles, or give \"first\" "
         "and \"second\" with \"mode\": \"manual\"");
-  if (repeats.lattice.rank == 2 && repeats.lattice.cell_area() > 0.99 * double(features->size().area()))
+  const bool single = repeats.lattice.is_single_cell(features->size());
+  if (single && courses > 0)
+    node.note(
+        fmt::format("the exemplar is a single cell of its lattice, of {} courses with other joints each: what "
+                    "lies between those is laid anew where elements are",
+                    courses));
+  else if (single)
     node.warn(
         "the exemplar is a single cell of its lattice: a result repeats it as it is, with few variations. An exemplar "
         "that shows several tiles or panels side by side helps");

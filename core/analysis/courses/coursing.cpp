@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -99,14 +100,16 @@ Demands of_joints_by_themselves() {
   return {separability, separability, coursing_tuning->most_aligned_by_themselves};
 }
 
-/// All courses of one kind of which the exemplar shows something, whole or not.
-std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
+/// All courses of one kind of which the exemplar shows something, whole or not; of one that tiles each once.
+std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, const CourseSheet& sheet) {
   std::vector<ExemplarCourse> out;
   const size_t k = size_t(kind);
-  for (double start = -m.period; start < breadth; start += m.period) {
+  for (double start = sheet.wraps ? 0 : -m.period; start < sheet.breadth; start += m.period) {
     const double begin = start + m.beds[k];
     const double end = k + 1 < m.beds.size() ? start + m.beds[k + 1] : start + m.period + m.beds[0];
-    if (end > 0 && begin < breadth) out.push_back({begin, end, kind, {}});
+    // A period need not be whole pixels of a coarse level.
+    if (sheet.wraps ? start + m.period / 2 < sheet.breadth : end > 0 && begin < sheet.breadth)
+      out.push_back({begin, end, kind, {}});
   }
   return out;
 }
@@ -119,14 +122,14 @@ double shown_share(const std::vector<ExemplarCourse>& courses, int breadth) {
 }
 
 /// How many of the joints go on in a course below.
-double aligned_share(const std::vector<ExemplarCourse>& courses, int half_joint) {
+double aligned_share(const Coursing& m) {
   int aligned = 0, all = 0;
-  for (const ExemplarCourse& upper : courses)
-    for (const ExemplarCourse& lower : courses) {
-      if (std::abs(lower.begin - upper.end) > 1) continue;
+  for (const ExemplarCourse& upper : m.courses)
+    for (const ExemplarCourse& lower : m.courses) {
+      if (std::abs(m.apart(lower.begin, upper.end)) > 1) continue;
       const std::vector<double> below = sure_joints(lower);
       for (const double u : sure_joints(upper)) {
-        aligned += std::ranges::any_of(below, [&](double v) { return std::abs(u - v) <= half_joint + 1; });
+        aligned += std::ranges::any_of(below, [&](double v) { return std::abs(u - v) <= m.half_joint + 1; });
         all++;
       }
     }
@@ -238,11 +241,11 @@ struct SeparableCourses {
 
 /// Nothing if joints cannot be separated from bricks, or bricks hardly end.
 SeparableCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
-  std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
+  std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet);
   HeadJoints head_joints(sheet, courses, m.half_joint);
   std::erase_if(courses, [&](const ExemplarCourse& c) {
     const CourseInside inside(c, m.half_joint);
-    return inside.begin < 0 || inside.end > sheet.breadth || inside.end <= inside.begin;
+    return !sheet.has(inside.begin) || !sheet.has(inside.end - 1) || inside.end <= inside.begin;
   });
   if (int(courses.size()) < coursing_tuning->least_of_kind) return {};
   const double separability = head_joints.separability();
@@ -263,13 +266,43 @@ bool Coursing::is_clear() const {
   return separability >= coursing_tuning->clear;
 }
 
-Coursing find_coursing(const Appearance& appearance, const Task& task) {
+Coursing coursing_of(const ElementCourses& found, const Appearance& appearance) {
+  const Size size = appearance.size();
+  const int breadth = found.upright ? size.width : size.height;
+  const auto courses = double(found.beds.size());
   Coursing out;
-  Vector2d along = appearance.lattice().along_bands(true);
+  while (breadth / courses / (1 << out.level) > coursing_tuning->largest_period &&
+         out.level + 1 < int(appearance.levels().size()))
+    out.level++;
+  const int scale = 1 << out.level;
+  const Size of_level = appearance.levels()[size_t(out.level)].size;
+  out.axes.upright = found.upright;
+  out.around = found.upright ? Size{of_level.height, of_level.width} : of_level;
+  out.period = double(breadth) / scale;
+  out.half_joint = 1;
+  out.comes_once = true;
+  out.separability = std::numeric_limits<double>::infinity();
+  for (const double bed : found.beds) out.beds.push_back(bed / scale);
+  for (size_t k = 0; k < found.beds.size(); k++) {
+    const double end = k + 1 < found.beds.size() ? out.beds[k + 1] : out.beds[0] + out.period;
+    ExemplarCourse course{out.beds[k], end, int(k), {}};
+    course.joint.assign(size_t(out.around.width), 0);
+    for (const double joint : found.joints[k])
+      for (int d = -out.half_joint; d <= out.half_joint; d++)
+        course.joint[size_t(wrap(int(joint / scale) + d, out.around.width))] = 1;
+    out.courses.push_back(std::move(course));
+  }
+  return out;
+}
+
+Coursing find_coursing(const Appearance& appearance, const Task& task) {
+  const Lattice& lattice = appearance.lattice();
+  Coursing out;
+  Vector2d along = lattice.along_bands(true);
   out.axes = {along.x() == 0, along.x() == 0 ? 0 : along.y() / along.x()};
-  if (out.axes.upright) along = appearance.lattice().along_bands(false);
+  if (out.axes.upright) along = lattice.along_bands(false);
   if (out.axes.upright && along.y() != 0) out.axes.rise = along.x() / along.y();
-  const Lattice bands = appearance.lattice().level_bands(!out.axes.upright);
+  const Lattice bands = lattice.level_bands(!out.axes.upright);
   if (bands.rank == 0) return {};
   out.period = std::abs(out.axes.upright ? bands.first.x() : bands.first.y());
   while (out.period > coursing_tuning->largest_period && out.level + 1 < int(appearance.levels().size())) {
@@ -277,7 +310,8 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     out.level++;
   }
   if (out.period < coursing_tuning->smallest_period) return {};
-  const CourseSheet sheet(appearance.levels()[size_t(out.level)], out.axes);
+  const CourseSheet sheet(appearance.levels()[size_t(out.level)], out.axes, appearance.wraps());
+  if (sheet.wraps) out.around = {sheet.length, sheet.breadth};
   const BedJoints beds = find_bed_joints(sheet, out.period);
   out.beds = beds.places;
   out.half_joint = beds.half_breadth;
@@ -292,9 +326,9 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   if (shown_share(out.courses, sheet.breadth) < coursing_tuning->least_shown) return {};
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
   // themselves.
-  if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};
+  if (aligned_share(out) > most_aligned) return {};
   const double step = std::abs(out.axes.upright ? along.y() : along.x()) / (1 << out.level);
-  if (appearance.lattice().rank == 2 && lattice_keeps_whole(sheet, out, step)) return {};
+  if (lattice.rank == 2 && lattice_keeps_whole(sheet, out, step)) return {};
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/base/geometry.h"
 #include "core/base/tuning.h"
 #include "core/numeric/linear_algebra.h"
 #include "core/numeric/moments.h"
@@ -75,13 +76,16 @@ Traits traits_of(const CourseSheet& sheet, int along, int across, int radius) {
   Traits out{};
   double squares = 0;
   int n = 0;
-  for (int v = std::max(0, across - radius); v <= std::min(sheet.breadth - 1, across + radius); v++)
-    for (int u = std::max(0, along - radius); u <= std::min(sheet.length - 1, along + radius); u++, n++)
+  for (int v = across - radius; v <= across + radius; v++)
+    for (int u = along - radius; u <= along + radius; u++) {
+      if (!sheet.has(v) || (!sheet.wraps && (u < 0 || u >= sheet.length))) continue;
+      n++;
       for (size_t c = 0; c < channels; c++) {
         const double value = sheet.at(u, v)[c];
         out[channels + c] += value;
         squares += value * value;
       }
+    }
   double of_means = 0;
   for (size_t c = 0; c < channels; c++) {
     out[c] = sheet.at(along, across)[c];
@@ -145,7 +149,7 @@ class HeadJoints::Samples {
   /// Those of these rows that a pattern has which shows every column.
   void add_rows(int begin, int end, Moments<>& to) {
     for (int v = begin; v < end; v++)
-      for (int u = first_of(v); u < sheet_.length; u += step_) add(u, v, to);
+      for (int u = first_of(v); sheet_.has(v) && u < sheet_.length; u += step_) add(u, v, to);
   }
 
   /// All of the joints, of which there are few, and of the others those that the pattern has.
@@ -164,7 +168,7 @@ class HeadJoints::Samples {
   Moments<> joints, bricks;
 
  private:
-  int first_of(int across) const { return across * stagger % step_; }
+  int first_of(int across) const { return wrap(across * stagger, step_); }
   void add(int along, int across, Moments<>& to) {
     if (sheet_.usable(along, across)) to.add(traits_of(sheet_, along, across, radius_).data());
   }
@@ -182,10 +186,10 @@ HeadJoints::HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCours
     for (const double bed : {c.begin, c.end}) {
       const int first = int(std::floor(bed - surely * half_breadth + 0.5));
       const int last = int(std::floor(bed + surely * half_breadth + 0.5));
-      if (first >= 0 && last < sheet.breadth) samples.add_rows(first, last + 1, samples.joints);
+      if (sheet.has(first) && sheet.has(last)) samples.add_rows(first, last + 1, samples.joints);
     }
     const CourseInside inside(c, half_breadth);
-    samples.add_rows(std::max(0, inside.begin), std::min(sheet.breadth, inside.end), samples.bricks);
+    samples.add_rows(inside.begin, inside.end, samples.bricks);
   }
   separate(samples);
 }
@@ -228,10 +232,12 @@ std::vector<double> HeadJoints::likeness(const ExemplarCourse& course) const {
   std::vector<double> out(size_t(sheet_.length), 0.0);
   const int reach = half_breadth_ / 2, unlike_sections = head_joints_tuning->unlike_sections;
   for (int u = 0; u < sheet_.length; u++) {
-    const int begin = std::max(0, u - reach), end = std::min(sheet_.length, u + reach + 1);
+    const int begin = sheet_.wraps ? u - reach : std::max(0, u - reach);
+    const int end = sheet_.wraps ? u + reach + 1 : std::min(sheet_.length, u + reach + 1);
     Sections mean{};
     for (int k = begin; k < end; k++)
-      for (size_t s = 0; s < column_sections; s++) mean[s] += columns[size_t(k)][s] / (end - begin);
+      for (size_t s = 0; s < column_sections; s++)
+        mean[s] += columns[size_t(wrap(k, sheet_.length))][s] / (end - begin);
     std::ranges::nth_element(mean, mean.begin() + unlike_sections);
     out[size_t(u)] = mean[size_t(unlike_sections)];
   }

@@ -13,6 +13,7 @@
 #include "core/analysis/repeats/straight_lines.h"
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/tuning.h"
+#include "core/exemplar/element_courses.h"
 
 namespace terrazzo {
 
@@ -232,24 +233,27 @@ bool may_have_lattice(const Features& features, double least_certainty, const Ta
   return false;
 }
 
-Lattice lattice_of_few_elements(const Features& features, const Lattice& found, const Task& task) {
+FoundLattice told_by_few_elements(const Features& features, const FoundLattice& found, const Task& task) {
+  const Lattice& l = found.lattice;
   const Size size = features.size();
-  const double cells = found.rank == 2   ? double(size.area()) / found.cell_area()
-                       : found.rank == 1 ? (found.first.x() == 0 ? size.height : size.width) / found.first.sum()
-                                         : 0;
+  const double cells = l.rank == 2   ? double(size.area()) / l.cell_area()
+                       : l.rank == 1 ? (l.first.x() == 0 ? size.height : size.width) / l.first.sum()
+                                     : 0;
   if (features.mask() || cells > most_few_elements()) return found;
   const ElementsPtr elements = find_elements(features, task);
-  if (!elements || elements->certainty < sure_elements || are_in_step(*elements, found, true)) return found;
-  const Lattice of_few = lattice_of_few(*elements, found);
-  return of_few.rank > 0 ? of_few : found;
+  if (!elements || elements->certainty < sure_elements) return found;
+  FoundLattice out = found;
+  if (!are_in_step(*elements, l, true))
+    if (const Lattice of_few = lattice_of_few(*elements, l); of_few.rank > 0) out.lattice = of_few;
+  if (out.lattice.is_single_cell(size)) out.courses = int(element_courses(*elements).beds.size());
+  return out;
 }
 
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
   const Planes planes = weighted_planes(features, task);
-  FoundLattice found =
+  const FoundLattice found =
       find_lattice({view_of(planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
-  if (found.has_lines && features.wraps()) found.lattice = lattice_of_few_elements(features, found.lattice, task);
-  return found;
+  return found.has_lines && features.wraps() ? told_by_few_elements(features, found, task) : found;
 }
 
 }  // namespace terrazzo

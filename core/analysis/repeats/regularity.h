@@ -12,6 +12,7 @@ struct FoundLattice {
   /// Joints cross, but the exemplar holds too few cells to find the lattice.
   bool too_few = false;
   bool has_lines = false;  ///< level or upright ones stand out, or bands
+  int courses = 0;         ///< of an exemplar that is a single cell: those that element_courses() finds in it
 };
 
 /// Finds the lattice of an exemplar, or of several of one surface at one scale, from the autocorrelation of all
@@ -22,10 +23,10 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_c
 /// The same for the allowed area of an exemplar.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
-/// Of an exemplar that tiles and shows too few tiles or bricks for their correlation to tell: what their joints follow.
-/// `found`, a lattice found otherwise, if it has more cells, if there are none that are sure, or if a mask hides some.
-/// Throws Cancelled.
-Lattice lattice_of_few_elements(const Features& features, const Lattice& found, const Task& task);
+/// Of an exemplar that tiles and shows too few tiles or bricks for their correlation to tell: what their joints follow,
+/// and in what courses they lie. What was found otherwise if that has more cells, if there are none that are sure, or if
+/// a mask hides some. Throws Cancelled.
+FoundLattice told_by_few_elements(const Features& features, const FoundLattice& found, const Task& task);
 
 /// A quick look at half the size, or less of large exemplars: false if nothing in the exemplar repeats nearly well
 /// enough for a lattice of that certainty. Throws Cancelled.

@@ -329,7 +329,7 @@ bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task
 /// fit nothing inside.
 bool few_cells_tell(const Material& material, const ImagePtr& mask, const Task& task) {
   const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), true, mask);
-  return lattice_of_few_elements(*features, {}, task).rank == 2;
+  return told_by_few_elements(*features, {}, task).lattice.rank == 2;
 }
 
 }  // namespace

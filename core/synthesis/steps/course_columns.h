@@ -33,6 +33,7 @@ struct CourseColumns {
   static constexpr int farthest_joint_offset = 3;
   /// The columns before which a run may begin or end, and what either costs; ascending, perhaps one past the last.
   std::vector<Cut> cuts;
+  bool closed = false;  ///< the exemplar tiles: the first column goes on from the last. No cut is past the last then
 };
 
 /// Consecutive columns of the exemplar that a result shows from one of its columns on, up to the next run.
@@ -66,7 +67,8 @@ struct CandidateCourse {
 struct CourseFit {
   int step = 1;      ///< columns of the exemplar to one of the result
   int shortest = 1;  ///< the minimum length of runs in columns of the result, except at its borders
-  /// A run that goes back in the course of the one before goes back by at least so many columns of the exemplar.
+  /// A run that goes back in the course of the one before goes back by at least so many columns of the exemplar, or by
+  /// half of a course that is closed.
   int least_step_back = 0;
   double per_difference = 0;    ///< the cost per difference() of a column from what is shown,
   int32_t most_difference = 0;  ///< and its limit

@@ -115,7 +115,7 @@ class PathSearch {
           break;
         } else {
           x--;
-          label -= fit_.step;
+          label = previous(labels_.course_of(label), label);
           continue;
         }
       }
@@ -123,7 +123,7 @@ class PathSearch {
       const CutIndex from = began_at > 0 ? previous_cut_[size_t(began_at) * cut_count_ + began] : no_cut;
       if (from == no_cut) break;
       x = began_at - 1;
-      label = labels_.cuts[from].label - fit_.step;
+      label = last_before(labels_.cuts[from]);
       began = no_cut;
     }
     std::ranges::reverse(out);
@@ -138,6 +138,9 @@ class PathSearch {
   };
 
   int length() const { return int(shown_.size()); }
+  /// The label that one goes on from, and the last one of a run that ends before a cut; -1: none.
+  int previous(int course, int label) const { return labels_.before(course, label, fit_.step); }
+  int last_before(const CourseLabels::Cut& cut) const { return previous(cut.course, cut.label); }
 
   /// The cost of showing each label of a course in column x.
   void price_columns(int x, int course) {
@@ -160,23 +163,28 @@ class PathSearch {
     int64_t* sum = sums_.at(x).data();
     const int64_t* sum_before = x > 0 ? sums_.at(x - 1).data() : nullptr;
     const int first_after = x > 0 ? std::min(end, begin + step) : end;
+    const auto go_on = [&](int l, int from) {
+      const int32_t cost = complete_[size_t(from)];
+      sum[l] = sum_before[from] + column_cost_[size_t(l)];
+      next[size_t(l)] = cost < impossible ? cost + column_cost_[size_t(l)] : impossible;
+    };
     for (int l = begin; l < first_after; l++) {
+      if (const int from = x > 0 ? previous(course, l) : -1; from >= 0) {
+        go_on(l, from);
+        continue;
+      }
       sum[l] = column_cost_[size_t(l)];
       next[size_t(l)] = x == 0 && first_ == no_cut && in_phase(x, course, l) ? column_cost_[size_t(l)] : impossible;
     }
-    for (int l = first_after; l < end; l++) {
-      const int32_t before = complete_[size_t(l - step)];
-      sum[l] = sum_before[l - step] + column_cost_[size_t(l)];
-      next[size_t(l)] = before < impossible ? before + column_cost_[size_t(l)] : impossible;
-    }
+    for (int l = first_after; l < end; l++) go_on(l, l - step);
     if (x >= fit_.shortest - 1) complete_runs(x, course, next);
   }
 
   /// Adds the runs that reach the minimum length in column x.
   void complete_runs(int x, int course, std::vector<int32_t>& next) {
     for (int k = labels_.cuts_begin(course); k < labels_.cuts_end(course); k++) {
-      const int label = labels_.cuts[size_t(k)].label + (fit_.shortest - 1) * fit_.step;
-      if (label >= labels_.end(course)) continue;
+      const int label = labels_.after(labels_.cuts[size_t(k)], (fit_.shortest - 1) * fit_.step);
+      if (label < 0) continue;
       const int64_t cost = short_cost(x, CutIndex(k), fit_.shortest);
       if (cost >= next[size_t(label)]) continue;
       next[size_t(label)] = int32_t(cost);
@@ -189,17 +197,16 @@ class PathSearch {
     const int32_t start = start_cost_.at(x - columns + 1)[k];
     if (start >= impossible) return impossible;
     const CourseLabels::Cut& cut = labels_.cuts[k];
-    const int before = cut.label - fit_.step;
-    const bool has_before = before >= labels_.begin(cut.course) && x >= columns;
-    return start + sums_.at(x)[size_t(cut.label + (columns - 1) * fit_.step)] -
-           (has_before ? sums_.at(x - columns)[size_t(before)] : 0);
+    const int from = x >= columns ? last_before(cut) : -1;
+    return start + sums_.at(x)[size_t(labels_.after(cut, (columns - 1) * fit_.step))] -
+           (from >= 0 ? sums_.at(x - columns)[size_t(from)] : 0);
   }
 
   /// The cost of a path whose last run ends before a cut, and of that cut.
   int32_t end_cost(size_t k) const {
     const CourseLabels::Cut& cut = labels_.cuts[k];
-    const int last = cut.label - fit_.step;
-    const bool possible = last >= labels_.begin(cut.course) && complete_[size_t(last)] < impossible;
+    const int last = last_before(cut);
+    const bool possible = last >= 0 && complete_[size_t(last)] < impossible;
     return possible ? complete_[size_t(last)] + cut.cost : impossible;
   }
 
@@ -235,16 +242,30 @@ class PathSearch {
     const int begin = labels_.cuts_begin(course), end = labels_.cuts_end(course);
     const int32_t price = cut_prices_.empty() ? 0 : cut_prices_[size_t(x)];
     std::vector<Cheapest> from(size_t(end - begin));
-    CheapestEnds onward(fit_.per_gap), back(fit_.per_gap);
+    // Far enough on in a closed course is back again: ends in its first half are considered apart there.
+    const int length = labels_.length(course), half = labels_.begin(course) + length / 2;
+    const auto comes_back = [&](int k) {
+      return labels_.closed(course) &&
+             labels_.cuts[size_t(k)].label - labels_.begin(course) + least_step_back(course) > length;
+    };
+    CheapestEnds onward(fit_.per_gap), of_second_half = onward, back = onward, around = onward;
+    int last_of_half = begin - 1;
     for (int k = begin; k < end; k++) {
       Cheapest& best = from[size_t(k - begin)];
-      for (const CheapestEnds* l : {&before, &behind, &std::as_const(onward)})
+      for (const CheapestEnds* l : {&before, &behind, comes_back(k) ? &std::as_const(of_second_half) : &onward})
         best.consider(l->to(labels_.cuts[size_t(k)].joint_offset));
       consider_end(k, ends, onward);
+      if (labels_.cuts[size_t(k)].label >= half)
+        consider_end(k, ends, of_second_half);
+      else
+        last_of_half = k;
     }
-    for (int k = end - 1, far = end - 1; k >= begin; k--) {
+    for (int k = end - 1, far = end - 1, near = last_of_half; k >= begin; k--) {
       for (; far >= begin && goes_back(far, k); far--) consider_end(far, ends, back);
       from[size_t(k - begin)].consider(back.to(labels_.cuts[size_t(k)].joint_offset));
+      if (!comes_back(k)) continue;
+      for (; near >= begin && goes_back(near, k, length); near--) consider_end(near, ends, around);
+      from[size_t(k - begin)].consider(around.to(labels_.cuts[size_t(k)].joint_offset));
     }
     for (int k = begin; k < end; k++) {
       const Cheapest& c = from[size_t(k - begin)];
@@ -257,8 +278,19 @@ class PathSearch {
   bool in_phase(int x, int course, int label) const {
     return labels_.course(course).fits(label - labels_.begin(course) - (origin_ + x) * fit_.step);
   }
-  bool goes_back(int from, int to) const {
-    return labels_.cuts[size_t(from)].label - labels_.cuts[size_t(to)].label >= fit_.least_step_back;
+  int least_step_back(int course) const {
+    return labels_.closed(course) ? std::min(fit_.least_step_back, labels_.length(course) / 2) : fit_.least_step_back;
+  }
+  /// Whether a cut lies far enough behind another one of its course; `around`: once around it.
+  bool goes_back(int from, int to, int around = 0) const {
+    const CourseLabels::Cut& cut = labels_.cuts[size_t(from)];
+    return cut.label + around - labels_.cuts[size_t(to)].label >= least_step_back(cut.course);
+  }
+  /// Whether a run may begin at a cut after one that ends at another, or goes on from it.
+  bool may_follow(int from, int to) const {
+    const CourseLabels::Cut &a = labels_.cuts[size_t(from)], &b = labels_.cuts[size_t(to)];
+    if (a.course != b.course || a.label == b.label || goes_back(from, to)) return true;
+    return a.label < b.label && (!labels_.closed(a.course) || goes_back(from, to, labels_.length(a.course)));
   }
 
   std::optional<End> cheapest_end() const {
@@ -273,9 +305,9 @@ class PathSearch {
       const CourseLabels::Cut& first = labels_.cuts[first_];
       for (size_t k = 0; k < cut_count_; k++) {
         const CourseLabels::Cut& cut = labels_.cuts[k];
-        if (cut.course != first.course || cut.label <= first.label || goes_back(int(k), first_))
+        if (may_follow(int(k), first_))
           consider(end_cost(k) + int64_t{fit_.per_gap} * std::abs(cut.joint_offset - first.joint_offset),
-                   {cut.label - fit_.step});
+                   {last_before(cut)});
       }
       return out;
     }
@@ -283,8 +315,7 @@ class PathSearch {
     for (int columns = 1; columns < std::min(fit_.shortest, length()); columns++)
       for (size_t k = 0; k < cut_count_; k++) {
         const CourseLabels::Cut& cut = labels_.cuts[k];
-        const int label = cut.label + (columns - 1) * fit_.step;
-        if (label < labels_.end(cut.course))
+        if (const int label = labels_.after(cut, (columns - 1) * fit_.step); label >= 0)
           consider(short_cost(length() - 1, CutIndex(k), columns), {label, CutIndex(k), columns});
       }
     return out;
@@ -327,9 +358,24 @@ std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& 
       }
     return PathSearch(labels, fit, looks, moved, from, first).runs();
   };
-  const std::vector<CourseRun> twice = path(0, 2, no_cut);
-  const auto middle = std::ranges::find_if(twice, [&](const CourseRun& r) { return r.begin >= length / 2; });
-  if (middle == twice.end() || middle->begin >= length / 2 + length) return {};
+  std::vector<CourseRun> twice = path(0, 2, no_cut);
+  if (twice.empty()) return {};
+  auto middle = std::ranges::find_if(twice, [&](const CourseRun& r) { return r.begin >= length / 2; });
+  if (middle == twice.end() || middle->begin >= length / 2 + length) {
+    // Nothing is cut there: a closed course goes around, at no cost if it meets itself, else by its cheapest cut.
+    const CourseRun& going = *(middle - 1);
+    if (!labels.closed(going.course) || labels.cuts.empty()) return {};
+    if (length * fit.step % labels.length(going.course) == 0) {
+      const int ahead = (going.begin / length + 1) * length - going.begin;
+      return {{0, going.course, (going.from + ahead * fit.step) % labels.length(going.course)}};
+    }
+    const auto cheapest =
+        std::ranges::min_element(labels.cuts.begin() + labels.cuts_begin(going.course),
+                                 labels.cuts.begin() + labels.cuts_end(going.course), {}, &CourseLabels::Cut::cost);
+    const int from = cheapest->label - labels.begin(going.course);
+    const int ahead = wrap(from - going.from, labels.length(going.course)) / fit.step;
+    *(middle = twice.begin()) = {going.begin + ahead, going.course, from};
+  }
   const auto first = std::ranges::find_if(labels.cuts, [&](const CourseLabels::Cut& cut) {
     return cut.course == middle->course && cut.label == labels.begin(cut.course) + middle->from;
   });

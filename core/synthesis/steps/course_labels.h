@@ -37,10 +37,9 @@ class CourseLabels {
     columns_begin_.push_back(count_);
     cuts_begin_.push_back(int(cuts.size()));
     completed_from.assign(size_t(count_), no_cut);
-    for (size_t k = 0; k < cuts.size(); k++) {
-      const int label = cuts[k].label + (fit.shortest - 1) * fit.step;
-      if (label < end(cuts[k].course)) completed_from[size_t(label)] = CutIndex(k);
-    }
+    for (size_t k = 0; k < cuts.size(); k++)
+      if (const int label = after(cuts[k], (fit.shortest - 1) * fit.step); label >= 0)
+        completed_from[size_t(label)] = CutIndex(k);
   }
 
   int count() const { return count_; }
@@ -50,9 +49,23 @@ class CourseLabels {
   int end(int course) const { return columns_begin_[size_t(course) + 1]; }
   int cuts_begin(int course) const { return cuts_begin_[size_t(course)]; }
   int cuts_end(int course) const { return cuts_begin_[size_t(course) + 1]; }
+  int length(int course) const { return end(course) - begin(course); }
+  bool closed(int course) const { return courses_[size_t(course)].columns->closed; }
+  /// So many columns before a label of a course, or after a cut: -1 if the course does not reach so far.
+  int before(int course, int label, int columns) const {
+    if (label - columns >= begin(course)) return label - columns;
+    return closed(course) ? end(course) - 1 - (begin(course) - 1 - label + columns) % length(course) : -1;
+  }
+  int after(const Cut& cut, int columns) const {
+    if (cut.label + columns < end(cut.course)) return cut.label + columns;
+    return closed(cut.course) ? begin(cut.course) + (cut.label - begin(cut.course) + columns) % length(cut.course) : -1;
+  }
+  int course_of(int label) const {
+    return int(std::ranges::upper_bound(columns_begin_, label) - columns_begin_.begin()) - 1;
+  }
   /// The run that begins in the result's column x with a label.
   CourseRun run(int x, int label) const {
-    const int c = int(std::ranges::upper_bound(columns_begin_, label) - columns_begin_.begin()) - 1;
+    const int c = course_of(label);
     return {x, c, label - begin(c)};
   }
 

@@ -6,9 +6,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/analysis/courses/head_joints.h"
+#include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/steps/course_fitting.h"
 #include "core/synthesis/steps/course_prices.h"
+#include "core/synthesis/steps/course_sequence.h"
 #include "core/synthesis/steps/exemplar_courses.h"
 #include "core/synthesis/steps/result_courses.h"
 
@@ -69,16 +72,17 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
 class CourseLayout {
  public:
   CourseLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
-               const LatticePhase& phase, const Task& task)
+               const LatticePhase& phase, uint64_t bits, const Task& task)
       : field_(field),
         level_(level),
         appearance_(appearance),
         looks_(appearance.levels()[size_t(coursing.level)]),
         coursing_(coursing),
         phase_(phase),
+        bits_(bits),
         task_(task),
         result_(field, level, coursing, phase),
-        columns_(exemplar_courses(looks_, coursing, level.exemplar, result_.step())),
+        columns_(exemplar_courses(appearance, coursing, level.exemplar, result_.step())),
         height_(mean_height(coursing)),
         prices_(result_, coursing, columns_, height_) {
     const int step = result_.step();
@@ -118,16 +122,48 @@ class CourseLayout {
   void lay_course(int at) {
     task_.check();
     ResultCourse& course = result_.all[size_t(at)];
+    if (coursing_.comes_once)
+      course.runs = random_runs(at);
+    else
+      course.runs = runs_as_shown(at);
+    for (size_t i = 0; i < course.runs.size(); i++) show(course.runs[i], result_.end_of(course, i), course);
+  }
+
+  std::vector<CourseRun> runs_as_shown(int at) const {
+    const ResultCourse& course = result_.all[size_t(at)];
     const std::vector<int> tried = tried_for(course);
-    if (tried.empty()) return;
+    if (tried.empty()) return {};
     std::vector<CandidateCourse> courses;
     for (const int c : tried) courses.push_back(in_phase(c, course));
     CourseCosts prices = prices_.of(at, tried);
     // Where a lattice knows the bond, it says which joints stand above one another.
     if (appearance_.lattice().rank == 2) prices.cuts.clear();
-    course.runs = fitting_runs(looks_of(course), courses, prices, fit_);
-    for (CourseRun& r : course.runs) r.course = tried[size_t(r.course)];
-    for (size_t i = 0; i < course.runs.size(); i++) show(course.runs[i], result_.end_of(course, i), course);
+    std::vector<CourseRun> runs = fitting_runs(looks_of(course), courses, prices, fit_);
+    for (CourseRun& r : runs) r.course = tried[size_t(r.course)];
+    return runs;
+  }
+
+  /// What lies between two joints is a run, however short.
+  std::vector<CourseRun> random_runs(int at) const {
+    const int c = result_.all[size_t(at)].kind, around = coursing_.around.width;
+    const CourseColumns& columns = columns_[size_t(c)];
+    std::vector<int> joints;
+    for (const double joint : sure_joints(coursing_.courses[size_t(c)])) joints.push_back(int(joint));
+    if (joints.empty()) return {};
+    CourseFit fit = fit_;
+    for (size_t i = 0; i < joints.size(); i++) {
+      const int next = i + 1 < joints.size() ? joints[i + 1] : joints[0] + around;
+      const int shortest = (next - joints[i] - 2 * CourseColumns::farthest_joint_offset) / fit.step;
+      fit.shortest = std::max(1, std::min(fit.shortest, shortest));
+    }
+    fit.least_step_back = 1;
+    std::vector<ColumnDescriptor> looks;
+    for (const int u : random_sequence(joints, around, result_.length(), fit.step, more_random_bits(bits_, at)))
+      looks.push_back(columns.looks[size_t(u)]);
+    const CourseCosts prices{.columns = {}, .cuts = prices_.of(at, {}).cuts};
+    std::vector<CourseRun> runs = fitting_runs(looks, {{&columns}}, prices, fit);
+    for (CourseRun& r : runs) r.course = c;
+    return runs;
   }
 
   /// What each column of a course shows.
@@ -151,7 +187,7 @@ class CourseLayout {
     for (int x = 0; x < result_.length(); x++)
       if (const ExemplarPixel* p = result_.shown(x * result_.blocks(), int(std::floor(course.middle()))))
         for (size_t c = 0; c < votes.size(); c++)
-          votes[c] += covers(coursing_.courses[c], coursing_.axes.across(p->x, p->y) / result_.scale());
+          votes[c] += coursing_.covers(coursing_.courses[c], coursing_.axes.across(p->x, p->y) / result_.scale());
     for (int c = 0; c < int(columns_.size()); c++)
       if (coursing_.courses[size_t(c)].kind == course.kind) out.push_back(c);
     std::ranges::stable_sort(out, [&](int a, int b) { return votes[size_t(a)] > votes[size_t(b)]; });
@@ -202,7 +238,14 @@ class CourseLayout {
     result_.for_each_block(run, end, course, [&](size_t i, int a, int row) {
       const ExemplarPixel p = field_.pixels[i];
       const int u = result_.axes().along(p.x, p.y), v = result_.axes().along(p.y, p.x);
-      const Offset o{u - a, v - row};
+      Offset o{u - a, v - row};
+      if (coursing_.around.width > 0) {
+        const Size size = level_.exemplar.size();
+        const auto [length, breadth] =
+            result_.axes().upright ? std::pair(size.height, size.width) : std::pair(size.width, size.height);
+        o = {centred.along + nearest_to_zero(o.along - centred.along, length),
+             centred.across + nearest_to_zero(o.across - centred.across, breadth)};
+      }
       if (std::abs(o.along - centred.along) < result_.step() * scale &&
           std::abs(o.across - centred.across) <= course_layout_tuning->most_off * scale)
         votes[o]++;
@@ -223,7 +266,10 @@ class CourseLayout {
     result_.for_each_block(run, end, course, [&](size_t i, int a, int row) {
       int x = a + offset.along, y = row + offset.across;
       if (result_.axes().upright) std::swap(x, y);
-      if (level_.holds(x, y)) field_.pixels[i] = {uint16_t(x), uint16_t(y)};
+      level_.exemplar.unwind(x, y);
+      // What tiles goes on beyond its border, also within a block.
+      const bool shown = coursing_.around.width > 0 ? level_.exemplar.is_usable(x, y) : level_.holds(x, y);
+      if (shown) field_.pixels[i] = {uint16_t(x), uint16_t(y)};
     });
   }
 
@@ -233,6 +279,7 @@ class CourseLayout {
   const AppearanceLevel& looks_;
   const Coursing& coursing_;
   const LatticePhase& phase_;
+  uint64_t bits_;
   const Task& task_;
   ResultCourses result_;
   std::vector<CourseColumns> columns_;  // of each course of the exemplar
@@ -244,8 +291,8 @@ class CourseLayout {
 }  // namespace
 
 bool lay_courses(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
-                 const LatticePhase& phase, const Task& task) {
-  return !coursing.empty() && CourseLayout(field, level, appearance, coursing, phase, task).lay();
+                 const LatticePhase& phase, uint64_t bits, const Task& task) {
+  return !coursing.empty() && CourseLayout(field, level, appearance, coursing, phase, bits, task).lay();
 }
 
 }  // namespace terrazzo

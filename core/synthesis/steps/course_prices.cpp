@@ -105,7 +105,7 @@ void CoursePrices::count_use() {
       if (!p) continue;
       const double across = coursing_.axes.across(p->x, p->y) / scale;
       for (size_t c = 0; c < columns_.size(); c++)
-        if (covers(coursing_.courses[c], across)) {
+        if (coursing_.covers(coursing_.courses[c], across)) {
           use_[c][size_t(coursing_.axes.along(p->x, p->y) / scale)]++;
           shown[kind_of(c)]++;
         }
@@ -162,8 +162,9 @@ void CoursePrices::add_repeats(int at, const std::vector<int>& tried, std::vecto
       const int course = int(found - tried.begin()), end = result_.end_of(beside, i);
       const int columns = int(columns_[size_t(run.course)].looks.size());
       for (int x = run.begin; x < end; x++)
-        for (int column = run.from + (x - run.begin) * step, s = 0; s < step && column < columns; s++, column++)
-          prices.push_back({course, column, x - near_, x + near_ + 1, price});
+        for (int column = run.from + (x - run.begin) * step, s = 0; s < step; s++, column++)
+          if (const int shown = columns_[size_t(run.course)].closed ? column % columns : column; shown < columns)
+            prices.push_back({course, shown, x - near_, x + near_ + 1, price});
     }
   }
 }
@@ -181,7 +182,8 @@ void CoursePrices::add_continued(const ResultCourse& course, const std::vector<i
       const double across = (coursing_.axes.across(p->x, p->y) - away * result_.block()) / scale;
       for (size_t c = 0; c < tried.size(); c++) {
         const ExemplarCourse& e = coursing_.courses[size_t(tried[c])];
-        if (std::abs(across - (e.begin + e.end) / 2) < (e.end - e.begin) * course_prices_tuning->middle_tolerance)
+        if (std::abs(coursing_.apart(across, (e.begin + e.end) / 2)) <
+            (e.end - e.begin) * course_prices_tuning->middle_tolerance)
           prices.push_back({int(c), coursing_.axes.along(p->x, p->y) / scale, x, x + 1, price});
       }
     }

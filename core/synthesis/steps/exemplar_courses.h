@@ -37,9 +37,9 @@ class StripMeans {
   std::array<std::array<int, appearance_dimensions>, course_strips> sum_{};
 };
 
-/// The columns of all the exemplar's courses, and where they can be cut. `looks`: the coursing's level. `step`: columns
-/// of the exemplar to one of the result. `exemplar`: the finest level.
-std::vector<CourseColumns> exemplar_courses(const AppearanceLevel& looks, const Coursing& coursing,
+/// The columns of all the exemplar's courses, and where they can be cut. A column through an element that reaches over
+/// several courses is not usable. `step`: columns of the exemplar to one of the result. `exemplar`: the finest level.
+std::vector<CourseColumns> exemplar_courses(const Appearance& appearance, const Coursing& coursing,
                                             const PaddedLevel& exemplar, int step);
 
 /// The factor that scales differences so that those between two columns of one kind are cost_unit on average.

@@ -73,9 +73,4 @@ class ResultCourses {
   bool closed_along_, closed_across_;
 };
 
-/// Whether a course of the exemplar covers a position across, in pixels of the coursing's level.
-inline bool covers(const ExemplarCourse& course, double across) {
-  return across >= course.begin && across < course.end;
-}
-
 }  // namespace terrazzo

@@ -189,3 +189,45 @@ TEST_CASE("where nothing may be shown there is still an answer, or none") {
     }
   }
 }
+
+TEST_CASE("a course that is closed goes on around the exemplar's border at no cost, also with long steps") {
+  for (const int step : {1, 4}) {
+    CAPTURE(step);
+    CourseColumns a = course({1, 2, 3, 4});
+    a.cuts.pop_back();
+    a.closed = true;
+    CourseFit around = fit;
+    around.step = step;
+    around.shortest = step == 1 ? 4 : 1;
+    std::vector<int> shown;
+    for (int x = 0; x < 60 / step; x++) shown.push_back((15 + x * step) % 24 / brick + 1);
+    const auto runs = fitting_runs(looks(shown), {{&a}}, {}, around);
+    REQUIRE(runs.size() == 1);
+    for (int x = 0; x < int(shown.size()); x++) CHECK((runs[0].from + x * step) % 24 / brick + 1 == shown[size_t(x)]);
+    // Of a result that wraps as well, once it is as long as the exemplar, or what it shows does not go on.
+    around.closed = true;
+    shown.resize(size_t(24 / step));
+    const auto closed = fitting_runs(looks(shown), {{&a}}, {}, around);
+    REQUIRE(!closed.empty());
+    for (size_t i = 0; i < closed.size(); i++) {
+      const int length = (i + 1 < closed.size() ? closed[i + 1].begin : closed[0].begin + 24 / step) - closed[i].begin;
+      CHECK((closed[i].from + length * step - closed[(i + 1) % closed.size()].from) % 24 == 0);
+    }
+  }
+}
+
+TEST_CASE("around a closed course no brick comes right beside itself, either way") {
+  CourseColumns a = course({1, 2, 3, 4});
+  a.cuts.pop_back();
+  a.closed = true;
+  for (const std::vector<int>& shades : {std::vector<int>{4, 4, 4, 4}, {1, 1, 1, 1, 2}, {3, 3, 1, 1}}) {
+    const auto runs = fitting_runs(looks(bricks(shades)), {{&a}}, {}, fit);
+    for (size_t i = 1; i < runs.size(); i++) {
+      const int ended = (runs[i - 1].from + runs[i].begin - runs[i - 1].begin) % 24;
+      CHECK((ended - runs[i].from + 24) % 24 >= fit.least_step_back);
+    }
+  }
+  // Two bricks on is half of the course back.
+  const auto skips = fitting_runs(looks(bricks({1, 4, 3, 2})), {{&a}}, {}, fit);
+  CHECK(skips.size() > 1);
+}

@@ -152,3 +152,78 @@ TEST_CASE("sizes smaller than a brick, and masks, do no harm") {
   const UvMapPtr uv = synthesize(*index, {.size = {300, 200}, .seed = 5}, task);
   for (const ExemplarPixel p : uv->pixels()) REQUIRE(p.x >= 120);
 }
+
+namespace {
+
+/// Panels of two courses, 60 and 100 pixels high, four and three of them, as a single cell that tiles.
+int panel(int x, int y) {
+  const int course = y % 160 >= 60;
+  const std::vector<int> ends = course ? std::vector<int>{30, 110, 170} : std::vector<int>{0, 50, 90, 140};
+  const auto after = std::ranges::upper_bound(ends, x % 200);
+  return course * 10 + int(after - ends.begin() + int(ends.size()) - 1) % int(ends.size());
+}
+
+AppearancePtr single_cell() {
+  const Size size{200, 160};
+  const ImagePtr image = test::make_image(
+      size, 3,
+      [&](int x, int y, int c) {
+        const bool joint = panel(x, y) != panel(x + 3, y) || panel(x, y) != panel(x, y + 3);
+        const double speckle = 0.05 * unit_double(random_bits(6, x, y, c));
+        return float(joint ? 0.05 + speckle : 0.3 + 0.4 * unit_double(random_bits(5, panel(x, y), c)) + speckle);
+      },
+      Semantic::base_color, "srgb_texture");
+  Elements elements{size, {}, 7, 1};
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const int p = panel(x + 2, y + 2);
+      elements.at.push_back(uint16_t(p >= 10 ? p - 6 : p));
+    }
+  const FeaturesPtr features = weighted_features(*Material::of(image), {}, true);
+  const Lattice cell{2, {200, 0}, {0, 160}, 0.5};
+  return make_appearance(*features->with(cell)->with(std::make_shared<const Elements>(elements)), {}, {}, Task());
+}
+
+}  // namespace
+
+TEST_CASE("an exemplar of courses that come once is not repeated as it is, and its panels are whole") {
+  const AppearancePtr appearance = single_cell();
+  const IndexPtr index = make_index(appearance, 3, task);
+  const auto made = [&](bool whole_bricks, Quality quality) {
+    return synthesize(*index, {.size = {800, 640}, .seed = 4, .quality = quality, .whole_bricks = whole_bricks}, task);
+  };
+  /// The share of pixels that show what the exemplar's width further along is shown.
+  const auto again = [&](const UvMap& uv) {
+    int same = 0;
+    for (int y = 0; y < 640; y++)
+      for (int x = 0; x < 600; x++) same += uv.at(x, y) == uv.at(x + 200, y);
+    return same / (640.0 * 600);
+  };
+  CHECK(again(*made(false, Quality::normal)) > 0.9);
+  const UvMapPtr laid = made(true, Quality::normal);
+  CHECK(again(*laid) < 0.6);
+  // Each row within a course shows panels from end to end.
+  int whole = 0, all = 0;
+  for (const int y : {30, 110, 190, 270, 350, 430}) {
+    const auto number = [&](int x) { return panel(laid->at(x, y).x, laid->at(x, y).y); };
+    int begin = 0;
+    while (begin < 800 && number(begin) == number(0)) begin++;
+    for (int end = begin + 1; end < 800; end++) {
+      const int step = laid->at(end, y).x - laid->at(end - 1, y).x;
+      if (step == 1 || step == -199) continue;
+      // It goes on elsewhere: both sides are at a joint.
+      const auto at_joint = [&](int x) {
+        const ExemplarPixel p = laid->at(x, y);
+        for (int d = -8; d <= 8; d++)
+          if (panel(p.x + 200 + d, p.y) != panel(p.x + 200, p.y)) return true;
+        return false;
+      };
+      all++;
+      whole += at_joint(end - 1) && at_joint(end);
+    }
+  }
+  REQUIRE(all > 10);
+  CHECK(whole >= 0.95 * all);
+  // In drafts it comes as it is.
+  CHECK(again(*made(true, Quality::draft)) > 0.9);
+}

@@ -1,0 +1,70 @@
+#include "core/exemplar/element_courses.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <doctest/doctest.h>
+
+using namespace terrazzo;
+
+namespace {
+
+constexpr Size size{240, 180};
+
+/// `name`: of the element at (x, y), any number.
+Elements elements(const std::function<int(int, int)>& name, bool turned = false) {
+  Elements out{turned ? Size{size.height, size.width} : size, {}, 0, 1};
+  std::map<int, uint16_t> numbers;
+  for (int y = 0; y < out.size.height; y++)
+    for (int x = 0; x < out.size.width; x++) {
+      const int of = turned ? name(y, x) : name(x, y);
+      out.at.push_back(numbers.emplace(of, uint16_t(numbers.size())).first->second);
+    }
+  out.count = int(numbers.size());
+  return out;
+}
+
+/// Three courses, 50, 90 and 40 pixels high, the last of which goes on around the border.
+int course_of(int y) {
+  return y < 20 || y >= 160 ? 2 : y < 70 ? 0 : 1;
+}
+int panels(int x, int y) {
+  const int course = course_of(y), width = course == 0 ? 60 : course == 1 ? 80 : 48, from = course * 13 + 7;
+  return course * 100 + (x + size.width - from) % size.width / width;
+}
+
+}  // namespace
+
+TEST_CASE("courses of different heights are found by the joints along them and across, lying and standing") {
+  for (const bool turned : {false, true}) {
+    const ElementCourses found = element_courses(elements(panels, turned));
+    REQUIRE(found.beds.size() == 3);
+    CHECK(found.upright == turned);
+    CHECK(found.lattice(turned ? Size{180, 240} : size).first == (turned ? Vector2d{180, 0} : Vector2d{0, 180}));
+    for (size_t k = 0; k < 3; k++) CHECK(std::abs(found.beds[k] - std::array{20, 70, 160}[k]) <= 1);
+    for (size_t k = 0; k < 3; k++) {
+      const int course = course_of(int(found.beds[k]) + 5), width = std::array{60, 80, 48}[size_t(course)];
+      REQUIRE(int(found.joints[k].size()) == size.width / width);
+      for (size_t i = 0; i < found.joints[k].size(); i++)
+        CHECK(std::abs(found.joints[k][i] - (course * 13 + 7 + int(i) * width)) <= 1);
+    }
+  }
+}
+
+TEST_CASE("what lies side by side in two courses, or goes on over both, is not parted") {
+  CHECK(!element_courses(elements(panels)).empty());
+  // A grid has joints along it both ways.
+  CHECK(element_courses(elements([](int x, int y) { return y / 60 * 10 + x / 60; })).empty());
+  // Joints go on from course to course but for one that a panel closes.
+  CHECK(element_courses(elements([](int x, int y) {
+          return y / 60 * 10 + (y >= 60 && y < 120 && x / 60 == 1 ? 0 : x / 60);
+        })).empty());
+  // A panel reaches over two of the three courses: the joint between those does not go all along.
+  const ElementCourses two = element_courses(
+      elements([](int x, int y) { return x >= 110 && x < 150 && y >= 20 && y < 160 ? 99 : panels(x, y); }));
+  CHECK(two.beds.size() == 2);
+  // One course only, stones at random.
+  CHECK(element_courses(elements([](int x, int y) { return (x + 20) / 60 + 0 * y; })).empty());
+  CHECK(element_courses(Elements{size, std::vector<uint16_t>(size_t(size.area())), 1, 1}).empty());
+}
