@@ -45,11 +45,14 @@ Vector2d lattice_start(const Repeats& repeats, const SynthesisOptions& o) {
 /// Those of an exemplar that repeats as a whole only, or not surely, where they are laid anew.
 ElementCourses single_courses(const Appearance& appearance, const SynthesisOptions& options) {
   const Lattice& l = appearance.lattice();
-  const bool as_whole = l.is_single_cell(appearance.size()) || (l.rank == 1 && l.comes_once(appearance.size()));
-  const bool unsure = l.rank == 1 && !keeps_to_courses(l);
   const bool laid = options.whole_bricks && options.quality != Quality::draft && options.controls.empty();
-  if (!(as_whole || unsure) || !laid || !appearance.wraps() || !appearance.elements()) return {};
-  return element_courses(*appearance.elements());
+  if (!laid || l.rank == 0 || !appearance.wraps() || !appearance.elements()) return {};
+  const bool as_whole = l.is_single_cell(appearance.size()) || (l.rank == 1 && l.comes_once(appearance.size()));
+  const bool sure = l.rank == 1 ? keeps_to_courses(l) : are_in_step(*appearance.elements(), l, true);
+  if (sure && !as_whole) return {};
+  ElementCourses courses = element_courses(*appearance.elements());
+  const double breadth = courses.upright ? appearance.size().width : appearance.size().height;
+  return breadth >= shared_work_tuning->shortest_course * double(courses.beds.size()) ? courses : ElementCourses();
 }
 
 /// Whether elements lie in phase with a lattice of cells.
@@ -78,6 +81,10 @@ WholeElements whole_elements_of(const Appearance& appearance, const Repeats& rep
 }
 
 }  // namespace
+
+Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options) {
+  return repeats_of(appearance, single_courses(appearance, options), options);
+}
 
 bool keeps_to_courses(const Lattice& lattice) {
   return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&

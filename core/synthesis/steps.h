@@ -30,7 +30,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 30;
+inline constexpr int synthesis_version = 31;
 
 /// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
 /// are: there bricks and elements are laid, and seams moved for the last time.
@@ -98,6 +98,10 @@ Effort effort_of(const LevelFacts& facts);
 
 /// How many pixels beyond what is wanted so many correction passes read.
 int reach_of(int passes);
+
+/// How an exemplar repeats in a result: courses that come once each along them only, where they are laid anew, and not at
+/// all where controls say what goes where.
+Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options);
 
 /// What all levels of a synthesis share. What it is made from must outlive it. Thread-safe to read.
 struct SharedWork {

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/image/image_facts.h"
 #include "core/synthesis/state/jitter.h"
+#include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis/wrapping_size.h"
 
@@ -181,7 +182,7 @@ void require_same_exemplar(const InputForecasts& inputs) {
 
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence) {
-  const Lattice& lattice = index.appearance()->lattice();
+  const Lattice lattice = repeats_in_result(*index.appearance(), options).lattice;
   const auto is_unseen = [&](const Lattice& l, Size size) {
     return l.bent(size, options.tile_x, options.tile_y, size) <= l.unseen_bend();
   };
