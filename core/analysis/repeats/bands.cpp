@@ -247,6 +247,11 @@ Bands bands_of(const Correlation& r, bool courses) {
   return bands_that_rise(r, courses, 0);
 }
 
+bool come_often(const Lattice& bands, Size exemplar) {
+  const int length = bands.first.x() == 0 ? exemplar.height : exemplar.width;
+  return length >= bands_tuning->often * bands.first.sum();
+}
+
 Lattice with_turned_bands(const Correlation& r, const Lattice& bands) {
   const LineCorrelation lines(r, bands.first.y() != 0, 0);
   const double twice = 2 * bands.first.sum();

@@ -15,8 +15,11 @@ struct Bands {
 /// Finds the period of courses, or of columns. Thread-safe.
 Bands bands_of(const Correlation& r, bool courses);
 
-/// The same for diagonal stripes, in the direction in which lines differ most. Rank 2, as they repeat along both axes;
-/// the step along the stripes is as long as the one across.
+/// Whether the exemplar shows so many that they come again by no chance.
+bool come_often(const Lattice& bands, Size exemplar);
+
+/// The same as bands_of() for diagonal stripes, in the direction in which lines differ most. Rank 2, as they repeat
+/// along both axes; the step along the stripes is as long as the one across.
 Bands stripes_of(const Correlation& r);
 
 /// The bands, or twice their period if every second one is turned or mirrored. `r`: the correlation of orientations.

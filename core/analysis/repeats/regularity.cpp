@@ -196,6 +196,10 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   const ExemplarView& largest =
       **std::ranges::max_element(views, {}, [](const ExemplarView* v) { return v->seen.area(); });
   const bool wraps = views.size() == 1 && largest.planes.wraps;
+  // Of an exemplar that does not tile, a few bands without edges are the shades of a ground.
+  const auto has_edges = [&](const Planes& outlines) { return has_edges_between(outlines, best.first.x() == 0); };
+  if (!wraps && best.rank == 1 && !come_often(best, of_values.exemplar()) && std::ranges::none_of(edges, has_edges))
+    best = {0, {}, {}, best.certainty};
   const Lattice lines = wraps ? lattice_of_lines(edges.front(), of_joints, best) : Lattice{};
   if (lines.rank > 0 && lines.certainty >= least_certainty)
     best = lines;

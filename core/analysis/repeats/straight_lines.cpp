@@ -199,24 +199,26 @@ Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines
   const bool courses = rows.share >= columns.share;
   const StraightLines& lines = courses ? rows : columns;
   if (lines.share < straight_lines_tuning->nearly_all) return {};
-  const StraightLines edges = shares_of(outlines, courses);
-  if (edges.share < straight_lines_tuning->least_crossing) return {};  // clouds, which have none
+  if (!has_edges_between(outlines, courses)) return {};
   const double period = found.rank == 0 ? 0 : courses ? found.first.y() : found.first.x();
   // Shades of courses may differ where their joints repeat.
+  const StraightLines edges = shares_of(outlines, courses);
   if (period > 0)
     for (const std::vector<double>& profile : {lines.profile, edges.profile})
       if (least_correlation(profile, period) > straight_lines_tuning->other_lines) return {};
   return {1, courses ? Vector2d{0, lines.period} : Vector2d{lines.period, 0}, {}, lines.share};
 }
 
+bool has_edges_between(const Planes& outlines, bool rows) {
+  return shares_of(outlines, rows).share >= straight_lines_tuning->least_crossing;
+}
+
 bool lines_cross(const Planes& outlines) {
-  return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
-         straight_lines_tuning->least_crossing;
+  return has_edges_between(outlines, true) && has_edges_between(outlines, false);
 }
 
 bool has_lines(const Planes& outlines) {
-  return std::max(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
-         straight_lines_tuning->least_crossing;
+  return has_edges_between(outlines, true) || has_edges_between(outlines, false);
 }
 
 }  // namespace terrazzo

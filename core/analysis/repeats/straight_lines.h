@@ -18,6 +18,8 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
 Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines, const Lattice& found,
                                 const Task& task);
 
+/// Whether what differs between rows (or columns) has edges there: clouds and shades of a ground have none.
+bool has_edges_between(const Planes& outlines, bool rows);
 /// Whether straight lines run from border to border in both directions, as joints between tiles.
 bool lines_cross(const Planes& outlines);
 /// The same in one direction at least, as joints between courses.

@@ -1,5 +1,7 @@
 #include "core/analysis/repeats/bands.h"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -68,4 +70,17 @@ TEST_CASE("many courses say more than a few whose shades happen to agree") {
       REQUIRE(l.rank == 1);
       CHECK(l.first.y() == doctest::Approx(height).epsilon(0.02));
     }
+}
+
+TEST_CASE("a few shades of a ground are no courses, painted stripes are") {
+  const auto ground = [](bool painted) {
+    return plain_features(make_image({240, 240}, 1, [painted](int x, int y, int) {
+      double grain = 0;
+      for (int k = 0; k < 9; k++) grain += unit_double(random_bits(6, (x + k % 3) / 3, (y + k / 3) / 3)) / 9;
+      const double shade = std::cos(y * 2 * std::numbers::pi / 80), stripe = y % 80 < 40 ? 1 : -1;
+      return float(0.2 * (painted ? stripe : shade) + grain);
+    }));
+  };
+  CHECK(bands_found(ground(true)).rank == 1);
+  CHECK(bands_found(ground(false)).rank == 0);
 }
