@@ -22,6 +22,10 @@ bool come_often(const Lattice& bands, Size exemplar);
 /// along both axes; the step along the stripes is as long as the one across.
 Bands stripes_of(const Correlation& r);
 
+/// The same of stripes that come once around an exemplar that tiles and have edges (`joints`: the correlation of
+/// outlines). Their certainty is how far lines half a period apart are opposites.
+Bands single_stripes_of(const Correlation& r, const Correlation& joints);
+
 /// The bands, or twice their period if every second one is turned or mirrored. `r`: the correlation of orientations.
 Lattice with_turned_bands(const Correlation& r, const Lattice& bands);
 

@@ -136,10 +136,11 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
   }
   if (is_sure(cell, told_twice, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
-  for (const Correlation* r : {&values, &joints})
-    if (const Bands b = stripes_of(*r);
-        b.lattice.certainty >= regularity_tuning->least_sure_stripes && b.distinct > bands.distinct)
-      bands = b;
+  const auto are_sure = [](const Bands& b) { return b.lattice.certainty >= regularity_tuning->least_sure_stripes; };
+  // The joints on both sides of a stripe are alike: of one that comes once they tell half.
+  const Bands once = single_stripes_of(values, joints);
+  for (const Bands& b : {stripes_of(values), are_sure(once) ? once : stripes_of(joints)})
+    if (are_sure(b) && b.distinct > bands.distinct) bands = b;
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }

@@ -209,8 +209,12 @@ Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines
   return {1, courses ? Vector2d{0, lines.period} : Vector2d{lines.period, 0}, {}, lines.share};
 }
 
+double least_of_lines() {
+  return straight_lines_tuning->least_crossing;
+}
+
 bool has_edges_between(const Planes& outlines, bool rows) {
-  return shares_of(outlines, rows).share >= straight_lines_tuning->least_crossing;
+  return shares_of(outlines, rows).share >= least_of_lines();
 }
 
 bool lines_cross(const Planes& outlines) {
