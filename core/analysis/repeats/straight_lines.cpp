@@ -218,7 +218,10 @@ bool has_edges_between(const Planes& outlines, bool rows) {
 }
 
 bool lines_cross(const Planes& outlines) {
-  return has_edges_between(outlines, true) && has_edges_between(outlines, false);
+  const auto [less, more] = std::minmax({shares_of(outlines, true).share, shares_of(outlines, false).share});
+  const bool is_framed =
+      more >= straight_lines_tuning->least_parallel && less >= straight_lines_tuning->recurring * least_of_lines();
+  return less >= least_of_lines() || is_framed;
 }
 
 bool has_lines(const Planes& outlines) {
