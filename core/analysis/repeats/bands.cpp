@@ -57,7 +57,7 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::often, "often", "periods",
          "how many there must be for certainty to rise by what lines have in common. Higher: fewer exemplars profit; "
          "lower: chance does",
-         "not measured: what comes again so often is no chance"},
+         "regularity"},
         {&BandsTuning::often_counts, "often_counts", "factor",
          "what such certainty is of that of all lines. Higher: thin joints are surer; lower: they are too little of "
          "all there is",

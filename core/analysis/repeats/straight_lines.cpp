@@ -31,7 +31,7 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
         {&StraightLinesTuning::least_crossing, "least_crossing", "share of the variance",
          "what must differ from line to line along both axes. Higher: fewer tiles are seen; lower: layers of rock are "
          "taken for them",
-         "not measured: layers of rock have up to a tenth, along one axis"},
+         "regularity"},
         {&StraightLinesTuning::recurring, "recurring", "factor",
          "on that where lines come twice and more along both axes, one of them as often as bands do. Higher: thin "
          "joints are torn; lower: chance lines make tiles",
