@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/analysis/repeats/straight_lines.h"
 #include "core/base/tuning.h"
 #include "core/numeric/moments.h"
 
@@ -56,7 +57,7 @@ const Tunable<BandsTuning> bands_tuning(
         {&BandsTuning::often, "often", "periods",
          "how many there must be for certainty to rise by what lines have in common. Higher: fewer exemplars profit; "
          "lower: chance does",
-         "not measured: what comes again so often is no chance"},
+         "regularity"},
         {&BandsTuning::often_counts, "often_counts", "factor",
          "what such certainty is of that of all lines. Higher: thin joints are surer; lower: they are too little of "
          "all there is",
@@ -241,10 +242,22 @@ Slant slant_of_stripes(const Correlation& r) {
   return best;
 }
 
+/// Along the stripes it is as far as across them.
+Lattice lattice_of_stripes(const Slant& slant, double period, double certainty) {
+  const double step = period / (1 + slant.rise * slant.rise);
+  if (slant.courses) return {2, {step, slant.rise * step}, {0, period}, certainty};
+  return {2, {period, 0}, {slant.rise * step, step}, certainty};
+}
+
 }  // namespace
 
 Bands bands_of(const Correlation& r, bool courses) {
   return bands_that_rise(r, courses, 0);
+}
+
+bool come_often(const Lattice& bands, Size exemplar) {
+  const int length = bands.first.x() == 0 ? exemplar.height : exemplar.width;
+  return length >= bands_tuning->often * bands.first.sum();
 }
 
 Lattice with_turned_bands(const Correlation& r, const Lattice& bands) {
@@ -259,13 +272,18 @@ Bands stripes_of(const Correlation& r) {
   const Slant slant = slant_of_stripes(r);
   if (slant.differ <= 0) return {};
   Bands out = bands_that_rise(r, slant.courses, slant.rise);
-  if (out.lattice.rank == 0) return {};
-  const Vector2d across = out.lattice.first;
-  const double period = across.maxCoeff();
-  const double step = period / (1 + slant.rise * slant.rise);  // along the stripes it is as far as across them
-  const Vector2d along = slant.courses ? Vector2d{step, slant.rise * step} : Vector2d{slant.rise * step, step};
-  out.lattice = {2, slant.courses ? along : across, slant.courses ? across : along, out.lattice.certainty};
-  return out;
+  if (out.lattice.rank > 0)
+    out.lattice = lattice_of_stripes(slant, out.lattice.first.maxCoeff(), out.lattice.certainty);
+  return out.lattice.rank > 0 ? out : Bands{};
+}
+
+Bands single_stripes_of(const Correlation& r, const Correlation& joints) {
+  const Slant slant = slant_of_stripes(r);
+  if (!r.wraps() || line_correlation(joints, slant.courses, slant.rise, 0) < least_of_lines()) return {};
+  const int period = slant.courses ? r.exemplar().height : r.exemplar().width;
+  // Half a period apart lines are as unlike as can be. Of grain they have nothing to do with one another.
+  const double opposed = std::clamp(-line_correlation(r, slant.courses, slant.rise, period / 2), 0.0, 1.0);
+  return {lattice_of_stripes(slant, period, opposed), opposed, opposed};
 }
 
 }  // namespace terrazzo

@@ -15,9 +15,16 @@ struct Bands {
 /// Finds the period of courses, or of columns. Thread-safe.
 Bands bands_of(const Correlation& r, bool courses);
 
-/// The same for diagonal stripes, in the direction in which lines differ most. Rank 2, as they repeat along both axes;
-/// the step along the stripes is as long as the one across.
+/// Whether the exemplar shows so many that they come again by no chance.
+bool come_often(const Lattice& bands, Size exemplar);
+
+/// The same as bands_of() for diagonal stripes, in the direction in which lines differ most. Rank 2, as they repeat
+/// along both axes; the step along the stripes is as long as the one across.
 Bands stripes_of(const Correlation& r);
+
+/// The same of stripes that come once around an exemplar that tiles and have edges (`joints`: the correlation of
+/// outlines). Their certainty is how far lines half a period apart are opposites.
+Bands single_stripes_of(const Correlation& r, const Correlation& joints);
 
 /// The bands, or twice their period if every second one is turned or mirrored. `r`: the correlation of orientations.
 Lattice with_turned_bands(const Correlation& r, const Lattice& bands);

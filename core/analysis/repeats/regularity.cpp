@@ -136,10 +136,11 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
   }
   if (is_sure(cell, told_twice, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
-  for (const Correlation* r : {&values, &joints})
-    if (const Bands b = stripes_of(*r);
-        b.lattice.certainty >= regularity_tuning->least_sure_stripes && b.distinct > bands.distinct)
-      bands = b;
+  const auto are_sure = [](const Bands& b) { return b.lattice.certainty >= regularity_tuning->least_sure_stripes; };
+  // The joints on both sides of a stripe are alike: of one that comes once they tell half.
+  const Bands once = single_stripes_of(values, joints);
+  for (const Bands& b : {stripes_of(values), are_sure(once) ? once : stripes_of(joints)})
+    if (are_sure(b) && b.distinct > bands.distinct) bands = b;
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
@@ -196,6 +197,10 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   const ExemplarView& largest =
       **std::ranges::max_element(views, {}, [](const ExemplarView* v) { return v->seen.area(); });
   const bool wraps = views.size() == 1 && largest.planes.wraps;
+  // Of an exemplar that does not tile, a few bands without edges are the shades of a ground.
+  const auto has_edges = [&](const Planes& outlines) { return has_edges_between(outlines, best.first.x() == 0); };
+  if (!wraps && best.rank == 1 && !come_often(best, of_values.exemplar()) && std::ranges::none_of(edges, has_edges))
+    best = {0, {}, {}, best.certainty};
   const Lattice lines = wraps ? lattice_of_lines(edges.front(), of_joints, best) : Lattice{};
   if (lines.rank > 0 && lines.certainty >= least_certainty)
     best = lines;

@@ -31,7 +31,7 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
         {&StraightLinesTuning::least_crossing, "least_crossing", "share of the variance",
          "what must differ from line to line along both axes. Higher: fewer tiles are seen; lower: layers of rock are "
          "taken for them",
-         "not measured: layers of rock have up to a tenth, along one axis"},
+         "regularity"},
         {&StraightLinesTuning::recurring, "recurring", "factor",
          "on that where lines come twice and more along both axes, one of them as often as bands do. Higher: thin "
          "joints are torn; lower: chance lines make tiles",
@@ -199,24 +199,33 @@ Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines
   const bool courses = rows.share >= columns.share;
   const StraightLines& lines = courses ? rows : columns;
   if (lines.share < straight_lines_tuning->nearly_all) return {};
-  const StraightLines edges = shares_of(outlines, courses);
-  if (edges.share < straight_lines_tuning->least_crossing) return {};  // clouds, which have none
+  if (!has_edges_between(outlines, courses)) return {};
   const double period = found.rank == 0 ? 0 : courses ? found.first.y() : found.first.x();
   // Shades of courses may differ where their joints repeat.
+  const StraightLines edges = shares_of(outlines, courses);
   if (period > 0)
     for (const std::vector<double>& profile : {lines.profile, edges.profile})
       if (least_correlation(profile, period) > straight_lines_tuning->other_lines) return {};
   return {1, courses ? Vector2d{0, lines.period} : Vector2d{lines.period, 0}, {}, lines.share};
 }
 
+double least_of_lines() {
+  return straight_lines_tuning->least_crossing;
+}
+
+bool has_edges_between(const Planes& outlines, bool rows) {
+  return shares_of(outlines, rows).share >= least_of_lines();
+}
+
 bool lines_cross(const Planes& outlines) {
-  return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
-         straight_lines_tuning->least_crossing;
+  const auto [less, more] = std::minmax({shares_of(outlines, true).share, shares_of(outlines, false).share});
+  const bool is_framed =
+      more >= straight_lines_tuning->least_parallel && less >= straight_lines_tuning->recurring * least_of_lines();
+  return less >= least_of_lines() || is_framed;
 }
 
 bool has_lines(const Planes& outlines) {
-  return std::max(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
-         straight_lines_tuning->least_crossing;
+  return has_edges_between(outlines, true) || has_edges_between(outlines, false);
 }
 
 }  // namespace terrazzo

@@ -18,7 +18,12 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
 Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines, const Lattice& found,
                                 const Task& task);
 
-/// Whether straight lines run from border to border in both directions, as joints between tiles.
+/// What of all variance lies between lines, at least, if there are any.
+double least_of_lines();
+/// Whether what differs between rows (or columns) has edges there: clouds and shades of a ground have none.
+bool has_edges_between(const Planes& outlines, bool rows);
+/// Whether straight lines run from border to border in both directions, as joints between tiles, or posts around
+/// boards.
 bool lines_cross(const Planes& outlines);
 /// The same in one direction at least, as joints between courses.
 bool has_lines(const Planes& outlines);

@@ -1,5 +1,7 @@
 #include "core/analysis/repeats/bands.h"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -68,4 +70,38 @@ TEST_CASE("many courses say more than a few whose shades happen to agree") {
       REQUIRE(l.rank == 1);
       CHECK(l.first.y() == doctest::Approx(height).epsilon(0.02));
     }
+}
+
+TEST_CASE("a few shades of a ground are no courses, painted stripes are") {
+  const auto ground = [](bool painted) {
+    return plain_features(make_image({240, 240}, 1, [painted](int x, int y, int) {
+      double grain = 0;
+      for (int k = 0; k < 9; k++) grain += unit_double(random_bits(6, (x + k % 3) / 3, (y + k / 3) / 3)) / 9;
+      const double shade = std::cos(y * 2 * std::numbers::pi / 80), stripe = y % 80 < 40 ? 1 : -1;
+      return float(0.2 * (painted ? stripe : shade) + grain);
+    }));
+  };
+  CHECK(bands_found(ground(true)).rank == 1);
+  CHECK(bands_found(ground(false)).rank == 0);
+}
+
+TEST_CASE("a stripe aslant that comes once around an exemplar that tiles goes on, a soft one does not") {
+  const auto striped = [](bool painted, double rise) {
+    return plain_features(make_image({128, 128}, 1,
+                                     [=](int x, int y, int) {
+                                       const double across = wrap(y + int(rise * x), 128) / 128.0;
+                                       const double soft = std::cos(across * 2 * std::numbers::pi);
+                                       const double grain = 0.4 * unit_double(random_bits(6, x / 2, y / 2));
+                                       return float(0.3 * (painted ? (across < 0.5 ? 1 : -1) : soft) + grain);
+                                     }),
+                          true);
+  };
+  for (const double rise : {1.0, -1.0}) {
+    CAPTURE(rise);
+    const Lattice found = bands_found(striped(true, rise));
+    REQUIRE(found.rank == 2);
+    CHECK(found.first == Vector2d{64, -64 * rise});
+    CHECK(found.second == Vector2d{0, 128});
+  }
+  CHECK(bands_found(striped(false, 1)).rank == 0);
 }

@@ -171,3 +171,20 @@ TEST_CASE("clouds that fade over many lines are no cells, joints across them are
   const TuningOverride soft_lines_count("straight_lines.least_sharp", 0);
   CHECK(find_lattice(*surface(false), 0.08, Task()).lattice.rank == 2);
 }
+
+TEST_CASE("boards between posts are told of, boards from border to border are not") {
+  const auto boards = [](bool posts) {
+    return plain_features(make_image({192, 192}, 1, [posts](int x, int y, int) {
+      const double grain = 0.3 * unit_double(random_bits(7, y / 2, (x + 17 * y) / 30));
+      const int at = std::min(x, 191 - x);
+      if (posts && at < 12) return float(at % 6 < 2 ? 0 : 1.2 + grain);
+      return float((y + 9) % 32 < 3 ? -1.5 : 0.6 + grain);
+    }));
+  };
+  for (const bool posts : {true, false}) {
+    CAPTURE(posts);
+    const FoundLattice found = find_lattice(*boards(posts), 0.08, Task());
+    CHECK(found.lattice.rank == 1);
+    CHECK(found.too_few == posts);
+  }
+}
