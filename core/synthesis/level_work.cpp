@@ -14,21 +14,16 @@ namespace {
 struct LevelWorkTuning {
   double least_landmark_factor = 0.5;
   double least_factor = 0.75;
-  int finest_recounted = 2;
 };
 const Tunable<LevelWorkTuning> level_work_tuning(
-    "level_work",
-    {
-        {&LevelWorkTuning::least_landmark_factor, "least_landmark_factor", "factor",
-         "lower: what is used too little is cheaper at the coarsest levels, and wins; finer levels break "
-         "features for it. Not for exemplars under 128 pixels (small_exemplars)",
-         "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
-        {&LevelWorkTuning::least_factor, "least_factor", "factor", "the same at the other levels",
-         "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
-        {&LevelWorkTuning::finest_recounted, "finest_recounted", "level",
-         "lower: use is counted anew in every pass of finer levels; costs time, and parts need one another",
-         "not measured: parts of a surface must not depend on one another"},
-    });
+    "level_work", {
+                      {&LevelWorkTuning::least_landmark_factor, "least_landmark_factor", "factor",
+                       "lower: what is used too little is cheaper at the coarsest levels, and wins; finer levels break "
+                       "features for it. Not for exemplars under 128 pixels (small_exemplars)",
+                       "What each rule decides", 0, 1},
+                      {&LevelWorkTuning::least_factor, "least_factor", "factor", "the same at the other levels",
+                       "What each rule decides", 0, 1},
+                  });
 
 /// What a mask lets synthesis use and controls want.
 std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* control) {
@@ -95,7 +90,7 @@ Field LevelWork::upsampled_blocks(const Field& parent, const PlaneWindow& window
 }
 
 void LevelWork::count_use(std::span<const ExemplarPixel> starts) {
-  if (facts_.level < level_work_tuning->finest_recounted) usage_.freeze_counts(starts, shared_.fixed(facts_.level + 1));
+  if (facts_.level <= finest_whole_level) usage_.freeze_counts(starts, shared_.fixed(facts_.level + 1));
 }
 
 Field LevelWork::initial_field(std::span<const ExemplarPixel> starts, const PlaneWindow& from,

@@ -25,23 +25,17 @@ struct StepTuning {
   double coherence_between_kept = 0.75;
   double coherence_where_steered = 0.85;
   double landmark_coherence = 0.7;
-  double stay_along_courses = 8;
+  double stay_to_joints = 8;
   double stay_to_the_pixel = 32;
-  double stay_by_joint = 4;
   double stay_around_bricks = 1;
   int landmark_levels = 2;
-  int finest_controlled = 2;
   int most_levels_of_small = 3;
   int finest_even = 1;
-  int finest_limited = 2;
-  int finest_repaired = 2;
   int coarsest_repaired = 3;
   int first_repair = 5;
   int last_repair = 2;
-  int seam_reach_along_courses = 20;
+  int seam_reach_to_joints = 20;
   int seam_reach_to_the_pixel = 4;
-  int nearest_joint = 10;
-  int farthest_joint = 24;
   int seam_reach_around_bricks = 8;
   int seam_reach_around_clear_bricks = 2;
   int left_out = 0;
@@ -55,49 +49,32 @@ const Tunable<StepTuning> step_tuning(
         {&StepTuning::coherence_where_steered, "coherence_where_steered", "factor",
          "lower: larger pieces under controls; higher: the target is followed more closely", "piece_limits", 0, 100},
         {&StepTuning::landmark_coherence, "landmark_coherence", "factor",
-         "lower: rare features stay whole at the coarsest levels; higher: more variety",
-         "not measured: chosen while features at the coarsest levels were looked at", 0, 100},
-        {&StepTuning::stay_along_courses, "stay_along_courses", "appearance units per pixel",
+         "lower: rare features stay whole at the coarsest levels; higher: more variety", "What each rule decides", 0,
+         100},
+        {&StepTuning::stay_to_joints, "stay_to_joints", "appearance units per pixel",
          "higher: seams stay nearer; lower: they go half a brick for a joint", "seams", 0, 10000},
         {&StepTuning::stay_to_the_pixel, "stay_to_the_pixel", "appearance units per pixel",
          "higher: seams stay; lower: they wander at the finest level", "seams", 0, 10000},
-        {&StepTuning::stay_by_joint, "stay_by_joint", "appearance units per pixel",
-         "as stay_along_courses, where cells tell how near the next joint is", "seams", 0, 10000},
         {&StepTuning::stay_around_bricks, "stay_around_bricks", "appearance units per pixel",
          "lower: seams find the joints that bricks were cut beside; higher: they keep to the cut",
-         "not measured: only a price of 2 was compared", 0, 10000},
+         "What each rule decides", 0, 10000},
         {&StepTuning::landmark_levels, "landmark_levels", "levels",
          "more: rare features are placed evenly; fewer: fewer of them are broken for it", "usage_penalty"},
-        {&StepTuning::finest_controlled, "finest_controlled", "level",
-         "lower: the use of exemplars under 64 pixels is evened out where few passes follow, and crumbs stay",
-         "small_exemplars"},
         {&StepTuning::most_levels_of_small, "most_levels_of_small", "levels",
          "of exemplars whose use is evened out less; 3 are those under 128 pixels. Higher: fewer crumbs, more repeats",
          "small_exemplars"},
         {&StepTuning::finest_even, "finest_even", "level",
-         "lower: evenness counts at finer levels too, and breaks features",
-         "not measured: taken over from the code before constants were listed"},
-        {&StepTuning::finest_limited, "finest_limited", "level",
-         "lower: pieces are limited at finer levels, where they hardly grow; costs time",
-         "not measured: pieces hardly grow at finer levels"},
-        {&StepTuning::finest_repaired, "finest_repaired", "level",
-         "lower: finer levels are repaired too, which brings nothing; costs time", "graphcut_repair"},
+         "lower: evenness counts at finer levels too, and breaks features", "What each rule decides"},
         {&StepTuning::coarsest_repaired, "coarsest_repaired", "level",
-         "higher: coarser levels too, where it brings nothing",
-         "not measured: the levels in use were measured together, not one by one"},
+         "higher: coarser levels too, where it brings nothing", "What each rule decides"},
         {&StepTuning::first_repair, "first_repair", "passes left", "higher: seams are repaired earlier",
-         "not measured: only more repairs were compared"},
+         "What each rule decides"},
         {&StepTuning::last_repair, "last_repair", "passes left", "lower: fewer passes smooth what was repaired last",
-         "not measured: only more repairs were compared"},
-        {&StepTuning::seam_reach_along_courses, "seam_reach_along_courses", "pixels",
+         "What each rule decides"},
+        {&StepTuning::seam_reach_to_joints, "seam_reach_to_joints", "pixels",
          "higher: joints of longer bricks are found; costs time", "seams", 0, 1000},
         {&StepTuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
          "higher: the finest level looks for other joints, not for where two meet; costs time", "seams", 0, 1000},
-        {&StepTuning::nearest_joint, "nearest_joint", "pixels", "the least reach where cells are small",
-         "not measured: chosen with the prices, not varied alone", 1, 1000},
-        {&StepTuning::farthest_joint, "farthest_joint", "pixels",
-         "the greatest reach where cells are large; costs time",
-         "not measured: chosen with the prices, not varied alone", 1, 1000},
         {&StepTuning::seam_reach_around_bricks, "seam_reach_around_bricks", "pixels",
          "higher: joints that were missed are found; lower: boards keep no stubs of joints", "course_layout", 0, 1000},
         {&StepTuning::seam_reach_around_clear_bricks, "seam_reach_around_clear_bricks", "pixels",
@@ -118,7 +95,7 @@ bool always(const LevelFacts&) {
 
 /// Measured on lattices this breaks more and makes nothing more like the exemplar.
 bool controls_use(const LevelFacts& f) {
-  return f.is_among_coarsest() && f.level >= step_tuning->finest_controlled && !f.regular && !f.steered && !f.kept;
+  return f.is_among_coarsest() && f.level > finest_whole_level && !f.regular && !f.steered && !f.kept;
 }
 
 /// On lattices everything near by is alike, and controls say what belongs where.
@@ -144,14 +121,14 @@ bool lays_courses(const LevelFacts& f) {
 }
 
 bool repairs_seams(const LevelFacts& f) {
-  const int finest = f.kept ? finest_whole_level : step_tuning->finest_repaired;
-  return !is_draft(f) && f.level >= finest && f.level <= step_tuning->coarsest_repaired && !f.steered;
+  return !is_draft(f) && f.level + f.kept > finest_whole_level && f.level <= step_tuning->coarsest_repaired &&
+         !f.steered;
 }
 
 /// Between kept pixels nothing is said about whole pieces; single ones hold together more instead. Nor where a target
 /// says what goes where: limited pieces fall apart into ever the same scrap that misses nothing of it.
 bool limits_pieces(const LevelFacts& f) {
-  return f.level >= step_tuning->finest_limited && !f.kept && !f.steered;
+  return f.level > finest_whole_level && !f.kept && !f.steered;
 }
 
 // What they do.
@@ -213,19 +190,12 @@ void complete(StepContext& c) {
 }
 
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
-/// brick away. Courses do not tell how long bricks are. Without a lattice, between kept pixels, the limit on pieces is
-/// that with one.
+/// brick away. Without a lattice, between kept pixels, the limit on pieces is that with one.
 SeamMoves seams_to_joints(const StepContext& c) {
   const StepTuning& t = *step_tuning;
-  SeamMoves moves{.reach = t.seam_reach_along_courses, .distance_penalty = t.stay_along_courses};
-  if (c.facts.level < finest_whole_level) {
-    moves.reach = t.seam_reach_to_the_pixel;
-    moves.distance_penalty = t.stay_to_the_pixel;
-  } else if (c.shared.lattice.rank > 1) {
-    const double half = c.shared.lattice.longest_step() / 2 / double(int64_t{2} << c.facts.level);
-    moves.reach = std::max(t.nearest_joint, std::min(int(half), t.farthest_joint));
-    moves.distance_penalty = t.stay_by_joint * t.nearest_joint / moves.reach;
-  }
+  SeamMoves moves{.reach = t.seam_reach_to_joints, .distance_penalty = t.stay_to_joints};
+  if (c.facts.level < finest_whole_level)
+    moves = {.reach = t.seam_reach_to_the_pixel, .distance_penalty = t.stay_to_the_pixel};
   const double blocks = double(c.level.exemplar.size().area()) / (c.level.block * c.level.block);
   moves.target_area = PieceLimits::of(true).large * blocks;
   return moves;

@@ -21,9 +21,7 @@ struct ControlTuning {
   double values_factor = 8;
   double feature_side = 1.0 / 16;
   double extreme_ranks = 0.05;
-  double least_demand = 0.05;
   int gray_bin_bits = 4;
-  int color_bin_bits = 2;
 };
 const Tunable<ControlTuning> control_tuning(
     "control",
@@ -31,7 +29,7 @@ const Tunable<ControlTuning> control_tuning(
         {&ControlTuning::values_factor, "values_factor", "cost of a wrong label",
          "higher: the largest difference of values costs more, and the picture shows more clearly; lower: features "
          "stay whole",
-         "not measured: the parameter `strength` scales it"},
+         "What each rule decides"},
         {&ControlTuning::feature_side, "feature_side", "exemplar sides",
          "higher: values may differ as they do in larger features, which stay whole; lower: the picture shows more "
          "clearly",
@@ -40,15 +38,10 @@ const Tunable<ControlTuning> control_tuning(
          "higher: more of the darkest and of the lightest values count as one, so that enough pixels show them; lower: "
          "the picture keeps its contrast",
          "control", 0, 0.5},
-        {&ControlTuning::least_demand, "least_demand", "share of an even use",
-         "higher: pixels whose values the target does not want stay cheap, for transitions; lower: they are avoided",
-         "not measured: above 0, as transitions need such pixels"},
-        {&ControlTuning::gray_bin_bits, "gray_bin_bits", "bits, 1..8",
-         "higher: demand is counted by finer grey values; lower: bins hold enough pixels to serve it",
-         "not measured: 16 bins of a 256-pixel exemplar hold some thousand pixels each", 1, 8},
-        {&ControlTuning::color_bin_bits, "color_bin_bits", "bits per channel, 1..8",
-         "the same for each channel of colours",
-         "not measured: 64 bins of a 256-pixel exemplar hold some thousand pixels each", 1, 8},
+        {&ControlTuning::gray_bin_bits, "gray_bin_bits", "bits",
+         "higher: demand is counted by finer grey values; lower: bins hold enough pixels to serve it. A channel of "
+         "colours has half as many",
+         "What each rule decides", 2, 8},
     });
 
 // Smaller ranges of values are taken for this one, so that noise does not become a picture.
@@ -218,7 +211,7 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
         part.labels ? 0
                     : deviation_within_features(exemplar_, part.first, end) / std::sqrt(std::max(1.0, part.strength));
     parts_.push_back({part.first, end, uint64_t(std::floor(weight + 0.5)), part.labels, int(slack),
-                      part.count == 1 ? control_tuning->gray_bin_bits : control_tuning->color_bin_bits});
+                      control_tuning->gray_bin_bits / (part.count == 1 ? 1 : 2)});
     influence_ = std::max(influence_, std::min(1.0, part.strength));
   }
 }
@@ -253,7 +246,7 @@ std::vector<double> LevelControl::demand(const std::vector<uint8_t>& usable) con
     if (!is_usable(i)) continue;
     const Counts& bin = bins.at(key(exemplar_.at(int64_t(i))));
     const double ratio = wants > 0 ? double(bin.wants) / double(wants) * double(has) / double(bin.has) : 1.0;
-    demand[i] = 1 + influence_ * (std::max(control_tuning->least_demand, ratio) - 1);
+    demand[i] = 1 + influence_ * (ratio - 1);
   }
   return demand;
 }

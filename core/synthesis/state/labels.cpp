@@ -27,7 +27,7 @@ const Tunable<LabelsTuning> labels_tuning(
     "labels", {{&LabelsTuning::around_core, "around_core", "leeways",
                 "how far from a disc of the leeway's radius that fits into an area the area still has leeway. Higher: "
                 "sharper corners may become round; lower: borders keep to their line near corners",
-                "not measured: the corners of a square are 1.41 away", 0, 1000}});
+                "What each rule decides", 0, 1000}});
 
 /// A value in 255ths; grey as a colour.
 using Label = std::array<int, 4>;

@@ -15,7 +15,6 @@ struct PieceLimitsTuning {
   double fragment = 0.3;
   double large_on_lattice = 0.055;
   double fragment_on_lattice = 0.1;
-  double most_coherence = 3;
 };
 const Tunable<PieceLimitsTuning> piece_limits_tuning(
     "piece_limits",
@@ -29,9 +28,6 @@ const Tunable<PieceLimitsTuning> piece_limits_tuning(
          "the same with a lattice, where less is out of phase and pieces grow more readily", "piece_limits"},
         {&PieceLimitsTuning::fragment_on_lattice, "fragment_on_lattice", "share of large_on_lattice",
          "the same with a lattice", "piece_limits"},
-        {&PieceLimitsTuning::most_coherence, "most_coherence", "factor",
-         "higher: the largest pieces stop growing for certain; lower: on lattices they go on growing", "piece_limits",
-         0, 1000},
     });
 
 }  // namespace
@@ -44,13 +40,12 @@ PieceLimits PieceLimits::of(bool regular) {
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       const PieceLimits& limits) {
   const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
-  const double most_coherence = piece_limits_tuning->most_coherence;
   const double large = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (int piece = 0; piece < pieces.count(); piece++) {
     const double size = pieces.area(piece) / large;
     const double penalty = size < limits.fragment ? 2 - size / limits.fragment : std::max(1.0, size);
-    const auto factor = uint32_t(std::min(most_coherence, coherence * penalty) * unit_factor);
+    const auto factor = uint32_t(coherence * penalty * unit_factor);
     for (const int i : pieces.members(piece)) factors[size_t(i)] = factor;
   }
   return factors;

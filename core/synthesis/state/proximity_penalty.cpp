@@ -13,7 +13,6 @@ namespace terrazzo {
 namespace {
 
 struct ProximityPenaltyTuning {
-  double most_excess = 2;
   double most_counts = double(1 << 24);
   int blocks_per_side = 8;
   int far_reach = 3;
@@ -24,14 +23,11 @@ struct ProximityPenaltyTuning {
 const Tunable<ProximityPenaltyTuning> proximity_penalty_tuning(
     "proximity_penalty",
     {
-        {&ProximityPenaltyTuning::most_excess, "most_excess", "repeats near by",
-         "higher: cells that repeat many times near by cost still more; lower: they are no worse than a few repeats",
-         "not measured: keeps factors in the range of other terms"},
         {&ProximityPenaltyTuning::most_counts, "most_counts", "counters of two bytes",
-         "higher: larger planes are counted too; costs memory and time", "not measured: 32 MiB"},
+         "higher: larger planes are counted too; costs memory and time", "What each rule decides"},
         {&ProximityPenaltyTuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
          "higher: a finer map of what is near, whose reaches are shorter; costs time and memory",
-         "not measured: reaches were measured in eighths of the exemplar's side", 1},
+         "What each rule decides", 1},
         {&ProximityPenaltyTuning::far_reach, "far_reach", "blocks to each side",
          "higher: repeats must be farther apart, which drives them to one distance just beyond; lower: they come "
          "nearer",
@@ -41,10 +37,10 @@ const Tunable<ProximityPenaltyTuning> proximity_penalty_tuning(
          "proximity_penalty", 0, 100},
         {&ProximityPenaltyTuning::cells_per_side, "cells_per_side", "cells along the exemplar's longer side",
          "higher: use is counted by smaller features; costs time. Lower: copies of parts of cells are not noticed",
-         "not measured: chosen to be about as large as small features", 1},
+         "What each rule decides", 1},
         {&ProximityPenaltyTuning::smallest_cell, "smallest_cell", "pixels",
          "the least side of a cell. Higher: less time at coarse levels; lower: smaller features count there",
-         "not measured: counts of single pixels would be mostly noise", 1},
+         "What each rule decides", 1},
     });
 
 constexpr uint32_t most = std::numeric_limits<uint16_t>::max();
@@ -163,16 +159,16 @@ std::vector<float> ProximityPenalty::weights(int reach) const {
 void ProximityPenalty::raise_factors() {
   factors_.resize(shown_.size());
   const std::vector<float> far_weights = weights(nearby_reach(0)), near_weights = weights(nearby_reach(1));
-  const float base = float(1 - weight_), highest = float(1 + weight_ * proximity_penalty_tuning->most_excess);
+  const float base = float(1 - weight_);
   tbb::parallel_for(0, columns_, [&](int column) {
     const Line line{column, columns_, rows_, plane_.tile_y};
     LineSums far(row_sums_[0], line, nearby_reach(0), cells_), near(row_sums_[1], line, nearby_reach(1), cells_);
     for (int i = 0; i < rows_; i++) {
       const uint32_t *far_sums = far.at(i), *near_sums = near.at(i);
       uint16_t* to = &factors_[size_t(line.first + i * line.step) * cells_];
-      // 1 up to one showing, then straight up to the highest; without branches, which vectorizes.
+      // 1 up to one showing, then straight up; without branches, which vectorizes.
       const auto factor = [&](uint32_t sum, float weight) {
-        return std::min(highest, std::max(1.0f, base + weight * float(int32_t(sum))));
+        return std::max(1.0f, base + weight * float(int32_t(sum)));
       };
       for (size_t c = 0; c < cells_; c++)
         to[c] = uint16_t(std::min(float(most), float(unit_factor) * factor(far_sums[c], far_weights[c]) *

@@ -9,7 +9,6 @@ namespace terrazzo {
 namespace {
 
 struct UsagePenaltyTuning {
-  double most_excess = 4;
   double gain = 0.3;
   double most_step = 1;
   double least_price = 0.25;
@@ -18,23 +17,17 @@ struct UsagePenaltyTuning {
 const Tunable<UsagePenaltyTuning> usage_penalty_tuning(
     "usage_penalty",
     {
-        {&UsagePenaltyTuning::most_excess, "most_excess", "uses too many",
-         "higher: cells used many times too often cost still more; lower: they are no worse than a few times",
-         "not measured: keeps factors in the range of other terms", 0, 1000},
         {&UsagePenaltyTuning::gain, "gain", "price per excess",
          "the integral gain. Higher: rare features come back sooner, but use oscillates; lower: they stay rare",
          "usage_penalty"},
         {&UsagePenaltyTuning::most_step, "most_step", "uses too many",
          "higher: one count raises the price of over-used cells more, and use oscillates; lower: they stay over-used",
-         "not measured: as large as the fall of a cell that is not used at all"},
+         "What each rule decides"},
         {&UsagePenaltyTuning::least_price, "least_price", "factor",
          "lower: cells that fit badly are forced in; higher: rare features are lost", "usage_penalty", 0, 1},
         {&UsagePenaltyTuning::most_price, "most_price", "factor",
          "higher: popular cells are avoided at any cost; lower: they stay over-used", "usage_penalty", 1, 1000},
     });
-
-// Pixels expected of a cell that should not be used: keeps the excess finite.
-constexpr double least_expected = 1e-6;
 
 }  // namespace
 
@@ -87,14 +80,12 @@ void UsagePenalty::count(std::span<const ExemplarPixel> pixels, const FixedPixel
     use[cells_.of(pixels[i])]++;
     free++;
   }
-  const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
-    const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
+    const double expected = double(free) * (shares_.empty() ? 1 / double(use.size()) : shares_[i]);
     // Where less is wanted than the cell holds, a few whole pieces are better than bits of everything: to show all of
     // it once is not too much, and to leave it out hardly too little.
-    const double used = double(use[i]), once = std::max(expected, areas_[i]);
-    const double excess = used > once ? std::min(usage_penalty_tuning->most_excess, used / once - 1)
-                                      : std::min(0.0, (used - expected) / once);
+    const double used = double(use[i]), once = std::max({1.0, expected, areas_[i]});
+    const double excess = used > once ? used / once - 1 : std::min(0.0, (used - expected) / once);
     // Under-used cells become cheaper as over-used ones become more expensive, but only down to a limit: an even use is
     // not worth broken features.
     double factor = std::max(least_factor_, 1.0 + weight_ * excess);

@@ -26,9 +26,7 @@ struct CourseLayoutTuning {
   double gap = 2;
   double most_staying = 0.25;
   double most_out_of_phase = 2;
-  double most_risen = 0.5;
   int most_columns = 6144;
-  int most_off = 2;
 };
 const Tunable<CourseLayoutTuning> course_layout_tuning(
     "course_layout",
@@ -36,14 +34,14 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
         {&CourseLayoutTuning::most_difference, "most_difference", "mean differences",
          "the limit of what a column may cost by its look. Higher: single features count fully; lower: they do not "
          "outweigh the rest of a brick",
-         "not measured: beyond it columns have nothing in common", 0, 1000},
+         "What each rule decides", 0, 1000},
         {&CourseLayoutTuning::shortest_run, "shortest_run", "course heights",
-         "higher: only long bricks are taken from the exemplar; lower: slivers are, too",
-         "not measured: what is shorter is no brick", 0, 1000},
+         "higher: only long bricks are taken from the exemplar; lower: slivers are, too", "What each rule decides", 0,
+         1000},
         {&CourseLayoutTuning::least_step_back, "least_step_back", "course heights",
          "how far a course must go back in the exemplar to show it again. Higher: fewer repeats side by side; lower: "
          "short exemplars offer more",
-         "not measured: chosen as about two bricks", 0, 1000},
+         "What each rule decides", 0, 1000},
         {&CourseLayoutTuning::gap, "gap", "mean differences times course heights",
          "the cost of a joint that is missing, or twice as wide. Higher: joints keep their width; lower: cuts are "
          "freer",
@@ -51,21 +49,13 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
         {&CourseLayoutTuning::most_staying, "most_staying", "share of a run's blocks",
          "so many must agree on an offset for the run to keep it. Higher: runs are centred in their course more often; "
          "lower: more stays as it was",
-         "not measured: below it the blocks agree by chance", 0, 1},
+         "What each rule decides", 0, 1},
         {&CourseLayoutTuning::most_out_of_phase, "most_out_of_phase", "phase penalty",
          "how far from the lattice runs may begin. Higher: more places fit; lower: bricks keep to the lattice",
-         "not measured: 2 is as far as the lattice is uncertain"},
-        {&CourseLayoutTuning::most_risen, "most_risen", "rows of the field",
-         "by how much courses of a result that wraps may miss themselves. Higher: more is laid; lower: no steps at the "
-         "border",
-         "not measured: a step of less than a row is not seen"},
+         "What each rule decides"},
         {&CourseLayoutTuning::most_columns, "most_columns", "columns of the exemplar",
          "tried for one course. Higher: large exemplars are used fully; costs time and memory",
-         "not measured: bounds time and memory", 1, int(most_cuts) / 2 - 1},
-        {&CourseLayoutTuning::most_off, "most_off", "pixels of the coursing's level",
-         "how far out of place blocks may be to stay. Higher: more stays, and bed joints may jog; lower: courses are "
-         "level",
-         "not measured: chosen as about the uncertainty of bed joints"},
+         "What each rule decides", 1, int(most_cuts) / 2 - 1},
     });
 
 /// Lays the courses of a result.
@@ -97,7 +87,7 @@ class CourseLayout {
 
   /// Courses within reach of each other's prices are laid one after the other, the others at the same time.
   bool lay() {
-    if (result_.closed_along() && std::abs(result_.risen()) > course_layout_tuning->most_risen) return false;
+    if (result_.closed_along() && std::lround(result_.risen()) != 0) return false;
     const int count = int(result_.all.size()), apart = 2 * prices_.reach() + 1;
     // Around a result that wraps the last courses are within reach of the first ones.
     const int together = result_.closed_across() ? count - count % apart : count;
@@ -246,9 +236,7 @@ class CourseLayout {
         o = {centred.along + nearest_to_zero(o.along - centred.along, length),
              centred.across + nearest_to_zero(o.across - centred.across, breadth)};
       }
-      if (std::abs(o.along - centred.along) < result_.step() * scale &&
-          std::abs(o.across - centred.across) <= course_layout_tuning->most_off * scale)
-        votes[o]++;
+      if (std::abs(o.along - centred.along) < result_.step() * scale) votes[o]++;
       blocks++;
     });
     Offset best = centred;

@@ -17,7 +17,6 @@ struct CoursePricesTuning {
   double neighbour_distance = 0.85;
   double middle_tolerance = 0.25;
   double even = 1;
-  double most_excess = 3;
   double use_reach = 0.25;
   double aligned = 3;
   double aligned_reach = 0.7;
@@ -28,10 +27,9 @@ const Tunable<CoursePricesTuning> course_prices_tuning(
     {
         {&CoursePricesTuning::near, "near", "course heights",
          "how far along adjacent courses repeats count. Higher: bricks repeat farther apart; lower: bricks fit better",
-         "not measured: chosen as about the length of a brick", 0, 100},
+         "What each rule decides", 0, 100},
         {&CoursePricesTuning::repeat_penalty, "repeat_penalty", "mean differences per column",
-         "higher: the same brick seldom lies near itself; lower: bricks fit better",
-         "not measured: as much as a column that is no better than any", 0, 1000},
+         "higher: the same brick seldom lies near itself; lower: bricks fit better", "What each rule decides", 0, 1000},
         {&CoursePricesTuning::own, "own", "mean differences per column",
          "higher: what a course shows already stays; lower: courses choose anew", "course_layout", 0, 1000},
         {&CoursePricesTuning::continued, "continued", "mean differences per column",
@@ -39,29 +37,26 @@ const Tunable<CoursePricesTuning> course_prices_tuning(
          "course_layout", 0, 1000},
         {&CoursePricesTuning::neighbour_distance, "neighbour_distance", "course heights",
          "how far from the middle of a course its neighbours are read. Near 1: their middles; lower: their near sides",
-         "not measured: well within the neighbour, past its bed joint"},
+         "What each rule decides"},
         {&CoursePricesTuning::middle_tolerance, "middle_tolerance", "course heights",
          "how far off the middle of an exemplar's course still counts as continued. Higher: more does; lower: only "
          "what is level",
-         "not measured: at one half courses would be confused"},
+         "What each rule decides"},
         {&CoursePricesTuning::even, "even", "mean differences per column",
          "higher: all bricks show equally often, and rare ones come back; lower: bricks fit better", "course_layout", 0,
          1000},
-        {&CoursePricesTuning::most_excess, "most_excess", "uses too many",
-         "higher: columns used many times too often cost still more; lower: they are no worse than a few times",
-         "not measured: keeps prices in the range of other terms", 0, 1000},
         {&CoursePricesTuning::use_reach, "use_reach", "course heights",
          "to each side, over which use is averaged. Higher: whole bricks count alike; lower: single columns do",
-         "not measured: half a course height in all, less than a brick", 0, 100},
+         "What each rule decides", 0, 100},
         {&CoursePricesTuning::aligned, "aligned", "mean differences times course heights",
          "what a cut right above or below another one costs. Higher: cuts are scattered; lower: bricks fit better",
          "course_layout", 0, 1000},
         {&CoursePricesTuning::aligned_reach, "aligned_reach", "course heights", "as far as that counts, less and less",
-         "not measured: less than a brick", 0, 100},
+         "What each rule decides", 0, 100},
         {&CoursePricesTuning::close_periods, "close_periods", "periods of the coursing",
          "how many away courses count as adjacent. Higher: repeats are farther apart; costs time, as fewer courses are "
          "laid at once",
-         "not measured: the nearest course of the same kind to each side", 0, 100},
+         "What each rule decides", 0, 100},
     });
 
 int32_t cost(double differences) {
@@ -192,11 +187,9 @@ void CoursePrices::add_continued(const ResultCourse& course, const std::vector<i
 
 /// Penalises columns that show more often than others, and favours those that show less.
 void CoursePrices::add_use(const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const {
-  const double even = course_prices_tuning->even, most_excess = course_prices_tuning->most_excess;
   for (size_t c = 0; c < tried.size(); c++)
     for (size_t u = 0; u < use_[size_t(tried[c])].size(); u++) {
-      const double excess = double(use_[size_t(tried[c])][u]) - 1;
-      const auto price = int32_t(even * cost_unit * std::clamp(excess, -1.0, most_excess));
+      const int32_t price = cost(course_prices_tuning->even * (double(use_[size_t(tried[c])][u]) - 1));
       prices.push_back({int(c), int(u), 0, result_.length(), price});
     }
 }

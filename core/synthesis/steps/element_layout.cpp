@@ -19,7 +19,6 @@ struct ElementLayoutTuning {
   double least_shown = 0.4;
   double least_shown_at_border = 0.15;
   double least_kept = 0.03;
-  int in_phase = 2;
   int fewest = 4;
 };
 const Tunable<ElementLayoutTuning> element_layout_tuning(
@@ -29,15 +28,13 @@ const Tunable<ElementLayoutTuning> element_layout_tuning(
          "that the field must show for it to stay. Higher: more is laid anew; lower: what stays fits less",
          "element_layout", 0, 1},
         {&ElementLayoutTuning::least_shown_at_border, "least_shown_at_border", "of an element",
-         "the same where the result's border cuts it", "not measured: chosen by eye", 0, 1},
+         "the same where the result's border cuts it", "What each rule decides", 0, 1},
         {&ElementLayoutTuning::least_kept, "least_kept", "of an element",
          "that must be kept for all of it to be shown. Higher: more is cut where kept pixels end; lower: crumbs count",
-         "not measured: chosen by eye", 0, 1},
-        {&ElementLayoutTuning::in_phase, "in_phase", "pixels", "within which an element keeps to the lattice",
-         "not measured: seams jog by less", 0, 64},
+         "What each rule decides", 0, 1},
         {&ElementLayoutTuning::fewest, "fewest", "elements",
          "that an exemplar must have whole. Higher: large tiles keep to their lattice; lower: they come back and back",
-         "not measured: fewer are no choice", 1},
+         "What each rule decides", 1},
     });
 
 class ElementLayout {
@@ -56,7 +53,7 @@ class ElementLayout {
     for (auto& of_element : places)
       for (ShownElement& s : of_element) {
         s.placed.stays = is_continued(s);
-        if (s.placed.stays || (is_shown(s) && is_in_phase(s.placed))) placed.push_back(s.placed);
+        if (s.placed.stays || is_shown(s)) placed.push_back(s.placed);
       }
     if (lattice_) packing_.keep_to(*lattice_, level_.phase);
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
@@ -89,15 +86,6 @@ class ElementLayout {
         out[size_t(row) * size_t(field_.size.width) + size_t(column)] = !s || !s->placed.stays;
       }
     return out;
-  }
-
-  /// Whether an element lies where the lattice that it keeps to has it, give or take seams.
-  bool is_in_phase(const PlacedElement& p) const {
-    if (!lattice_) return true;
-    const int x = shapes_.column_of(p) * level_.block, y = shapes_.row_of(p) * level_.block;
-    int u = x + p.shift_x, v = y + p.shift_y;
-    level_.phase.snap(x, y, u, v);
-    return std::max(std::abs(u - x - p.shift_x), std::abs(v - y - p.shift_y)) <= element_layout_tuning->in_phase;
   }
 
   /// Whether the field shows an element for the most part.

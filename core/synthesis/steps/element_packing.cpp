@@ -23,7 +23,6 @@ struct PackTuning {
   double overlap = 2;
   double least_overlap = 0.6;
   double least_gain = 0.35;
-  double last_gain = 0.2;
   double seen_around = 0.15;
   double around = 6;
   double used = 0.08;
@@ -46,8 +45,7 @@ const Tunable<PackTuning> pack_tuning(
         {&PackTuning::hole, "hole", "typical sides", "the least radius of holes. Lower: smaller ones are filled, too",
          "element_layout", 0.001, 4},
         {&PackTuning::farthest_filled, "farthest_filled", "typical sides",
-         "up to which holes are told by their size. Costs time and memory", "not measured: larger ones are rare", 0.1,
-         100},
+         "up to which holes are told by their size. Costs time and memory", "What each rule decides", 0.1, 100},
         {&PackTuning::overlap, "overlap", "times the gain of as much hole",
          "what it costs to cover others. Higher: gaps stay; lower: elements are squeezed", "element_layout", 0, 100},
         {&PackTuning::least_overlap, "least_overlap", "times the gain of as much hole",
@@ -55,9 +53,6 @@ const Tunable<PackTuning> pack_tuning(
         {&PackTuning::least_gain, "least_gain", "of an element's area",
          "what an element must fill, less what it covers. Higher: gaps stay; lower: elements are squeezed",
          "element_layout", 0, 1},
-        {&PackTuning::last_gain, "last_gain", "of an element's area",
-         "the same where nothing else fits. Higher: neighbours close gaps; lower: stones that others cover are torn",
-         "element_layout", -10, 1},
         {&PackTuning::seen_around, "seen_around", "of an element's area",
          "the price of one of the same right beside it. Higher: less repeats; lower: what is there fits better",
          "element_layout", 0, 100},
@@ -76,7 +71,7 @@ const Tunable<PackTuning> pack_tuning(
          "that an element moves at a time to meet its neighbours", "element_layout", 0, 4},
         {&PackTuning::worth_moving, "worth_moving", "of an element's area",
          "by which it must fit better elsewhere. Higher: elements stay; lower: they creep for nothing",
-         "not measured: chosen by eye", 0, 1},
+         "What each rule decides", 0, 1},
         {&PackTuning::settling, "settling", "rounds", "of moving elements. Costs time", "element_layout", 0, 100},
         {&PackTuning::rounds, "rounds", "rounds", "of taking away and filling. Costs time", "element_layout", 1, 100},
     });
@@ -363,7 +358,7 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
     settle(task);
   }
   remove_overlapped(task);
-  fill_holes({phase_ ? -1 : pack_tuning->last_gain, pack_tuning->least_overlap}, task);  // courses: squeezed along them
+  fill_holes({phase_ ? -1.0 : 0.0, pack_tuning->least_overlap}, task);  // courses: squeezed along them
 }
 
 }  // namespace terrazzo

@@ -21,7 +21,7 @@ const Tunable<ElementPlacesTuning> element_places_tuning(
          "likewise, of large ones. Higher: one that comes twice in part is one; lower: one that is bent is two",
          "element_layout", 0, 2},
         {&ElementPlacesTuning::same_place, "same_place", "pixels", "within which an element is in one place",
-         "not measured: seams jog by less", 0, 64},
+         "What each rule decides", 0, 64},
     });
 
 /// Elements and shifts in a fixed order.

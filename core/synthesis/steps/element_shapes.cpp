@@ -16,7 +16,6 @@ namespace {
 
 struct ElementShapesTuning {
   double margin = 0.4;
-  double ragged = 2.5;
   double surest_courses = 0.4;
   double as_large = 0.95;
   double inset = 0.06;
@@ -33,10 +32,6 @@ const Tunable<ElementShapesTuning> element_shapes_tuning(
          "around an element within which its neighbours matter to it. Higher: wider gaps are "
          "closed; costs time and memory",
          "element_layout", 0.01, 4},
-        {&ElementShapesTuning::ragged, "ragged", "times the median",
-         "of the area in squared inner radii, from which on an element is several that were "
-         "not parted. Higher: rows of stones come back as one; lower: long ones are lost",
-         "element_layout", 1, 100},
         {&ElementShapesTuning::samples, "samples", "blocks of an element",
          "that are compared when places for it are tried. Costs time", "element_layout", 1, 100000},
         {&ElementShapesTuning::outline, "outline", "blocks of its outline", "that are compared likewise",
@@ -171,22 +166,6 @@ void reject_cut(std::vector<ElementShape>& shapes, bool in_grid, double typical_
   for (ElementShape& s : shapes) s.unusable |= s.cut && double(s.area) < least;
 }
 
-/// How far from round: 3.1 for a disc, 4 for a square, the more the longer or the more branched.
-double raggedness(const ElementShape& s) {
-  return double(s.area) / std::max(1.0, double(s.inner_radius) * double(s.inner_radius));
-}
-
-void reject_noncompact(std::vector<ElementShape>& shapes) {
-  std::vector<double> all;
-  for (const ElementShape& s : shapes)
-    if (!s.unusable) all.push_back(raggedness(s));
-  if (all.empty()) return;
-  const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  const double most = element_shapes_tuning->ragged * *middle;
-  for (ElementShape& s : shapes) s.unusable |= raggedness(s) > most;
-}
-
 }  // namespace
 
 double ElementShape::depth_between(double x, double y) const {
@@ -228,7 +207,6 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
     else
       measure(grid, e, margin, out.all[size_t(e)].cut ? inset : 0, extents[size_t(e)], times, out.all[size_t(e)]);
   });
-  reject_noncompact(out.all);
   out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.unusable; }));
   return out;
 }

@@ -31,13 +31,13 @@ const Tunable<ExemplarCoursesTuning> exemplar_courses_tuning(
          "course_layout", 0, 1000},
         {&ExemplarCoursesTuning::surely_brick, "surely_brick", "likelihood of a joint, 0..1",
          "higher: faint joints are cut like bricks; lower: cuts go through bricks that look like joints",
-         "not measured: even odds", 0, 0.7},
+         "What each rule decides", 0, 0.7},
         {&ExemplarCoursesTuning::surely_joint, "surely_joint", "likelihood of a joint, 0..1",
          "higher: only clear joints are cut at the price of a joint; lower: doubtful ones are too",
-         "not measured: between it and surely_brick prices change gradually", 0.75, 1},
+         "What each rule decides", 0.75, 1},
         {&ExemplarCoursesTuning::brick_cut_spacing, "brick_cut_spacing", "course heights",
          "higher: fewer columns of bricks can be cut, which saves time; lower: cuts find a better column",
-         "not measured: bounds the time", 0, 1000},
+         "What each rule decides", 0, 1000},
     });
 
 // Of all pairs of columns, cost_per_difference() compares every seventh with another one, far from it.

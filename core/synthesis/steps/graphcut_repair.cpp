@@ -25,9 +25,6 @@ constexpr int half = 6;  // a window's pixels to each side of its middle
 constexpr int core = 4;  // the same without the rim, which is compared
 
 struct GraphcutRepairTuning {
-  int worse = 1;
-  int worse_where_fine = 3;
-  int fine_level = 1;
   int near = 20;
   int random_places = 16;
   int rim_stride = 2;
@@ -36,14 +33,6 @@ struct GraphcutRepairTuning {
 const Tunable<GraphcutRepairTuning> graphcut_repair_tuning(
     "graphcut_repair",
     {
-        {&GraphcutRepairTuning::worse, "worse", "average mismatches",
-         "how visible seams must be. Higher: fewer windows are repaired, which saves time; lower: more seams close",
-         "not measured: the average divides windows by whether repairing is worth the time", 0, 1000},
-        {&GraphcutRepairTuning::worse_where_fine, "worse_where_fine", "average mismatches",
-         "the same at fine levels, which have many windows", "not measured: bounds the time of fine levels", 0, 1000},
-        {&GraphcutRepairTuning::fine_level, "fine_level", "level",
-         "the coarsest level that counts as fine. Higher: less time; lower: more seams close at fine levels",
-         "not measured: bounds the time of fine levels"},
         {&GraphcutRepairTuning::near, "near", "pixels from a window's middle",
          "higher: what is repaired repeats less; lower: more places may fit, and fewer windows stay broken",
          "graphcut_repair", half + 1, 1000},
@@ -51,10 +40,10 @@ const Tunable<GraphcutRepairTuning> graphcut_repair_tuning(
          "higher: a better patch is found now and then; costs time", "graphcut_repair"},
         {&GraphcutRepairTuning::rim_stride, "rim_stride", "pixels of the rim",
          "higher: fewer of the rim's pixels propose candidates, which saves time; lower: more candidates",
-         "not measured: neighbours in one piece propose the same candidates", 1, 1000},
+         "What each rule decides", 1, 1000},
         {&GraphcutRepairTuning::near_stride, "near_stride", "pixels in x and y",
          "higher: fewer pixels are searched for repeats, which saves time; lower: smaller repeats are found",
-         "not measured: only repeats less than two pixels wide are missed", 1, 1000},
+         "What each rule decides", 1, 1000},
     });
 
 /// Covers windows with patches of the exemplar, named by the exemplar position that the window's middle would show.
@@ -229,12 +218,9 @@ std::vector<int> worst_windows(const ExpansionProblem& problem) {
   int64_t total = 0;
   for (const int32_t v : values) total += v;
   const int64_t average = total * (2 * core + 1) * (2 * core + 1) / size.area();
-  const int64_t least =
-      average * (problem.level.level <= graphcut_repair_tuning->fine_level ? graphcut_repair_tuning->worse_where_fine
-                                                                           : graphcut_repair_tuning->worse);
   std::vector<int> order, out;
   for (size_t i = 0; i < sums.size(); i++)
-    if (sums[i] > least) order.push_back(int(i));
+    if (sums[i] > average) order.push_back(int(i));
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a] > sums[b]; });
   std::vector<uint8_t> taken(sums.size(), 0);
   for (const int i : order) {

@@ -16,7 +16,6 @@ namespace {
 
 struct InitializeTuning {
   int blocks_per_side = 4;
-  int smallest_block = 4;
   int steered_draws = 16;
   int free_draws = 4;
   int near_blocks = 3;
@@ -26,20 +25,17 @@ const Tunable<InitializeTuning> initialize_tuning(
     {
         {&InitializeTuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
          "higher: smaller blocks mix more, and large features are cut; lower: large features stay whole and repeat",
-         "not measured: chosen so that a block holds large features as wholes", 1},
-        {&InitializeTuning::smallest_block, "smallest_block", "pixels of the coarsest level",
-         "the least side of a block. Higher: tiny exemplars keep their features; lower: they mix more",
-         "not measured: only exemplars below 16 pixels at the coarsest level reach it", 1},
+         "What each rule decides", 1},
         {&InitializeTuning::steered_draws, "steered_draws", "random blocks",
          "under a mask or controls. Higher: the layout follows them more closely; lower: it varies more",
-         "not measured: the passes that follow choose again"},
+         "What each rule decides"},
         {&InitializeTuning::free_draws, "free_draws", "random blocks",
          "without them. Higher: less repeats near by, more at one distance just beyond; lower: blocks repeat side by "
          "side",
          "proximity_penalty"},
         {&InitializeTuning::near_blocks, "near_blocks", "blocks",
          "how far repeats count. Higher: they are pushed farther away; lower: they come nearer",
-         "not measured: three quarters of the exemplar's side", 0, 100},
+         "What each rule decides", 0, 100},
     });
 
 /// The exemplar position of a random block's first pixel.
@@ -88,8 +84,7 @@ class BlockPlacing {
   using Start = std::array<int, 2>;  // the exemplar position of a block's first pixel
 
   static int block_side(Size exemplar) {
-    return std::max(initialize_tuning->smallest_block,
-                    std::min(exemplar.width, exemplar.height) / initialize_tuning->blocks_per_side);
+    return std::max(1, std::min(exemplar.width, exemplar.height) / initialize_tuning->blocks_per_side);
   }
 
   bool steered() const { return level_.control || exemplar_.masked(); }

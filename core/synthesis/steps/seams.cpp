@@ -18,7 +18,6 @@ namespace {
 struct SeamsTuning {
   double fair_unary_cost = appearance_limit / 55.0;
   double most_unary_cost = 3;
-  int smallest_piece = 2;
   int sweeps = 1;
 };
 const Tunable<SeamsTuning> seams_tuning(
@@ -29,9 +28,6 @@ const Tunable<SeamsTuning> seams_tuning(
          "seams", 0, 10000},
         {&SeamsTuning::most_unary_cost, "most_unary_cost", "fair_unary_cost",
          "higher: the largest pieces give way still more; lower: from some size on they grow", "seams", 0, 1000},
-        {&SeamsTuning::smallest_piece, "smallest_piece", "pixels of the field",
-         "higher: less time, as smaller pieces only give way; lower: single pixels may spread",
-         "not measured: single pixels are errors rather than pieces"},
         {&SeamsTuning::sweeps, "sweeps", "rounds over all pieces",
          "higher: seams follow those that moved after them; costs time", "seams"},
     });
@@ -109,8 +105,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
   Rounds rounds(level.window.field(), moves.reach);
-  for (const int piece : order)
-    if (pieces.area(piece) >= seams_tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
+  for (const int piece : order) rounds.add(piece, pieces.members(piece));
   const Field before = field;
   const std::vector<int32_t> unary_cost = unary_costs(pieces, moves.target_area, level.fixed);
   ExpansionProblem problem(field, level, true);
