@@ -19,11 +19,11 @@ const Tunable<ElementCoursesTuning> element_courses_tuning(
     {{&ElementCoursesTuning::straight, "straight", "share of a line's pixels",
       "that are near joints, from which on a joint goes all along it. Higher: rough courses are repeated as they are; "
       "lower: elements that reach over two courses are cut",
-      "not measured: joints of certain elements stray by a few pixels", 0.5, 1},
+      "course_layout", 0.5, 1},
      {&ElementCoursesTuning::most_aligned, "most_aligned", "share of the joints",
       "across a course that may go on in the next. Higher: panels that belong together part; lower: walls with some "
       "joints in line are repeated as they are",
-      "not measured: as coursing.most_aligned", 0, 1}});
+      "course_layout", 0, 1}});
 
 /// The middles of the runs of lines all along which there is a joint; around the border.
 std::vector<double> middles(const std::vector<uint8_t>& jointed) {
