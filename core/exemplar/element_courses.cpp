@@ -93,6 +93,7 @@ ElementCourses element_courses(const Elements& elements) {
     const double end = k + 1 < out.beds.size() ? out.beds[k + 1] : out.beds[0] + breadth;
     out.joints.push_back(joints_across(joints, elements.size, out.upright, out.beds[k], end));
   }
+  if (std::ranges::any_of(out.joints, [](const auto& joints) { return joints.size() < 2; })) return {};
   if (aligned_share(out.joints, out.upright ? elements.size.height : elements.size.width, joints.near()) >
       element_courses_tuning->most_aligned)
     return {};

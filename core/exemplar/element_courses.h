@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/exemplar/elements.h"
+#include "core/exemplar/lattice.h"
 
 namespace terrazzo {
 
@@ -19,8 +20,9 @@ struct ElementCourses {
   Lattice lattice(Size exemplar) const;
 };
 
-/// Of an exemplar that tiles. Empty if joints go all along it both ways, in no way or only once, or if those across go
-/// on from course to course: then what lies side by side belongs together. Thread-safe.
+/// Of an exemplar that tiles. Empty if joints go all along it both ways, in no way or only once, if fewer than two go
+/// across one of the courses, or if those go on from course to course: then what lies side by side belongs together.
+/// Thread-safe.
 ElementCourses element_courses(const Elements& elements);
 
 }  // namespace terrazzo

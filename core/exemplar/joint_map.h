@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/exemplar/elements.h"
+#include "core/exemplar/lattice.h"
 
 namespace terrazzo {
 

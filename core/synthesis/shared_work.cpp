@@ -1,6 +1,7 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/exemplar/element_courses.h"
+#include "core/exemplar/element_lattice.h"
 #include "core/synthesis/state/lattice_origin.h"
 #include "core/synthesis/state/purpose.h"
 #include "core/synthesis/steps.h"

@@ -99,8 +99,8 @@ Effort effort_of(const LevelFacts& facts);
 /// How many pixels beyond what is wanted so many correction passes read.
 int reach_of(int passes);
 
-/// How an exemplar repeats in a result: courses that come once each along them only, where they are laid anew, and not at
-/// all where controls say what goes where.
+/// How an exemplar repeats in a result: courses that come once each along them only, where they are laid anew, and not
+/// at all where controls say what goes where.
 Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options);
 
 /// What all levels of a synthesis share. What it is made from must outlive it. Thread-safe to read.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/appearance_space.h"
+#include "core/exemplar/element_lattice.h"
 #include "core/image/image_facts.h"
 #include "core/metrics/whole_elements.h"
 #include "core/synthesis/steps.h"
@@ -36,12 +37,13 @@ Part part_of(const Params& params) {
 
 /// Says how many elements came out whole, and warns of results that are not to be trusted. What the exemplar's border
 /// cuts cannot come out whole: of exemplars with too few others nothing is known.
-void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
+void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOptions& options, const UvMap& uv) {
   const Appearance& appearance = *index.appearance();
   const ElementsPtr& elements = appearance.elements();
   if (!elements || uv.size().area() < appearance.size().area()) return;
+  const Lattice lattice = repeats_in_result(appearance, options).lattice;
   if (!has_elements(appearance)) {
-    if (appearance.lattice().rank < 2 && !keeps_to_courses(appearance.lattice()))
+    if (lattice.rank < 2 && !keeps_to_courses(lattice))
       node.warn(
           fmt::format("the exemplar's border cuts all but {} of its {} elements, too few to be laid as wholes: "
                       "they may be torn or melted together. An exemplar that shows more of them, or that tiles, "
@@ -51,7 +53,7 @@ void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
   }
   const ShownElements shown = shown_elements(uv, *elements, node.task());
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
-  if (shown.are_broken() && !are_in_step(*elements, appearance.lattice(), appearance.wraps()))
+  if (shown.are_broken() && !are_in_step(*elements, lattice, appearance.wraps()))
     node.warn(
         counts +
         ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "
@@ -78,7 +80,7 @@ void compute_synthesize(NodeContext& node) {
                                    part.region, node.task());
   tell_of_parts(node, *index, *uv, part.is_whole());
   warn_of_less_surface(node, *index, part.surface);
-  if (options.quality != Quality::draft) tell_of_elements(node, *index, *uv);  // a draft lays none
+  if (options.quality != Quality::draft) tell_of_elements(node, *index, options, *uv);  // a draft lays none
   node.output("uv", uv);
 }
 

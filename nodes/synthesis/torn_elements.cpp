@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/metrics/whole_elements.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis/synthesis_params.h"
 
 namespace terrazzo {

@@ -14,6 +14,7 @@
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/tuning.h"
 #include "core/exemplar/element_courses.h"
+#include "core/exemplar/element_lattice.h"
 
 namespace terrazzo {
 

@@ -24,8 +24,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_c
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 /// Of an exemplar that tiles and shows too few tiles or bricks for their correlation to tell: what their joints follow,
-/// and in what courses they lie. What was found otherwise if that has more cells, if there are none that are sure, or if
-/// a mask hides some. Throws Cancelled.
+/// and in what courses they lie. What was found otherwise if that has more cells, if there are none that are sure, or
+/// if a mask hides some. Throws Cancelled.
 FoundLattice told_by_few_elements(const Features& features, const FoundLattice& found, const Task& task);
 
 /// A quick look at half the size, or less of large exemplars: false if nothing in the exemplar repeats nearly well

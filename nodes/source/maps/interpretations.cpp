@@ -51,7 +51,7 @@ void take_from_alpha(const std::string& name, const std::vector<MapFile>& files,
     throw Error(param, fmt::format("{} have an alpha channel; `maps` says which is meant, as in {{\"{}\": \"{}:a\"}}",
                                    fmt::join(all, " and "), name, all.front()));
   }
-  const auto& [file, layer] = *places.begin();
+  const std::string file = places.begin()->first, layer = places.begin()->second;
   const auto is_there = [&](const RecognisedMap& m) { return m.file == file && m.layer == layer; };
   std::erase_if(maps, [&](const RecognisedMap& m) { return m.map == name || (is_there(m) && m.channels == "a"); });
   for (RecognisedMap& m : maps)

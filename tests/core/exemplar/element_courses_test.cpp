@@ -64,7 +64,12 @@ TEST_CASE("what lies side by side in two courses, or goes on over both, is not p
   const ElementCourses two = element_courses(
       elements([](int x, int y) { return x >= 110 && x < 150 && y >= 20 && y < 160 ? 99 : panels(x, y); }));
   CHECK(two.beds.size() == 2);
-  // One course only, stones at random.
-  CHECK(element_courses(elements([](int x, int y) { return (x + 20) / 60 + 0 * y; })).empty());
+  // A rail without joints, or with one.
+  for (const int rail : {1, 240})
+    CHECK(element_courses(elements([&](int x, int y) {
+            return y < 20 || y >= 160 ? 200 + (x < rail) : panels(x, y);
+          })).empty());
+  // Columns without joints across.
+  CHECK(element_courses(elements([](int x, int) { return (x + 20) / 60; })).empty());
   CHECK(element_courses(Elements{size, std::vector<uint16_t>(size_t(size.area())), 1, 1}).empty());
 }

@@ -27,7 +27,7 @@ struct Tiff {
 
 /// One row of pixels, or one tile.
 Bytes make_tiff(const Tiff& tiff, const Bytes& values) {
-  ByteWriter out{.is_big_endian = tiff.is_big_endian};
+  test::ByteWriter out{.is_big_endian = tiff.is_big_endian};
   out.text(tiff.is_big_endian ? "MM" : "II").number(42, 2);
   const uint64_t at_values = 8, at_bits = at_values + values.size() + values.size() % 2;
   const uint64_t at_formats = at_bits + 2 * uint64_t(tiff.channels);
@@ -80,7 +80,7 @@ struct Bmp {
 
 /// 1x1 pixel of 32 bits: blue, green, red and a fourth byte.
 Bytes make_bmp(const Bmp& bmp, const Bytes& pixel) {
-  ByteWriter out;
+  test::ByteWriter out;
   const uint64_t begin = 14 + bmp.header + (bmp.header == 40 ? 4 * bmp.masks.size() : 0);
   out.text("BM").number(begin + pixel.size(), 4).number(0, 4).number(begin, 4).number(bmp.header, 4);
   out.number(pixel.size() / 4, 4).number(1, 4).number(1, 2).number(32, 2).number(bmp.compression, 4);
@@ -98,7 +98,7 @@ struct Dds {
 
 /// 4x4 pixels.
 Bytes make_dds(const Dds& dds, const Bytes& data) {
-  ByteWriter out;
+  test::ByteWriter out;
   out.text("DDS ").number(124, 4).number(0x1007 | (dds.depth ? 0x800000 : 0), 4).number(4, 4).number(4, 4);
   out.number(0, 4).number(dds.depth, 4).number(0, 4).zeros(44).number(32, 4).number(dds.flags, 4);
   out.text(dds.code).zeros(4 - dds.code.size()).number(dds.bits, 4).add(packed(dds.masks, 4));
@@ -191,13 +191,13 @@ TEST_CASE("Lab, CMYK and other spaces without plain colours are refused in every
   CHECK(contains(trouble("cmyk.tif", make_tiff({.photometric = 5, .channels = 4}, {0, 0, 0, 0})), "CMYK"));
   for (const auto& [mode, name] : {std::pair{4, "CMYK"}, {7, "multichannel"}, {8, "duotone"}, {9, "Lab"}})
     for (const int bits : {8, 16}) {
-      ByteWriter psd{.is_big_endian = true};
+      test::ByteWriter psd{.is_big_endian = true};
       psd.text("8BPS").number(1, 2).zeros(6).number(4, 2).number(2, 4).number(2, 4).number(uint64_t(bits), 2);
       psd.number(uint64_t(mode), 2).zeros(12).number(0, 2).zeros(16 * size_t(bits) / 8);
       CHECK(contains(trouble("ink.psd", psd.bytes), fmt::format("it is {}", name)));
     }
   for (const auto& [space, name] : {std::pair{12, "CMYK"}, {14, "Lab"}, {24, "colour space 24"}}) {
-    ByteWriter jp2{.is_big_endian = true};
+    test::ByteWriter jp2{.is_big_endian = true};
     jp2.number(12, 4).text("jP  \r\n").number(0x870a, 2).number(20, 4).text("ftypjp2 ").zeros(4).text("jp2 ");
     jp2.number(45, 4).text("jp2h").number(22, 4).text("ihdr").zeros(14).number(15, 4).text("colr").number(1, 1);
     jp2.zeros(2).number(uint64_t(space), 4);
@@ -294,13 +294,13 @@ TEST_CASE("TGA of 16-bit grey values is refused, and one of grey and alpha is re
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "grey.tga";
   for (const uint64_t kind : {3, 11}) {
-    ByteWriter out;
+    test::ByteWriter out;
     out.number(0, 1).number(0, 1).number(kind, 1).zeros(9).number(2, 2).number(1, 2).number(16, 1).number(0, 1);
     if (kind == 11) out.number(1, 1);
     write_bytes(path, out.number(16384, 2).number(32768, 2).bytes);
     CHECK(contains(read_error(path), "its header says grey values of 16 bits, which TGA does not know; save it as"));
   }
-  ByteWriter out;
+  test::ByteWriter out;
   out.number(0, 1).number(0, 1).number(3, 1).zeros(9).number(2, 2).number(1, 2).number(16, 1).number(8, 1);
   write_bytes(path, out.number(0xff33, 2).number(0xff66, 2).bytes);
   CHECK(read_with_warnings(path).pixels() == std::vector<float>{0.2f, 1, 0.4f, 1});

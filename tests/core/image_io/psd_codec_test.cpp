@@ -29,10 +29,10 @@ struct Psd {
 /// `composite`: what comes after the compression.
 Bytes make_psd(const Psd& psd, const Bytes& composite) {
   const int word = psd.version == 2 ? 8 : 4;
-  ByteWriter layers{.is_big_endian = true};
+  test::ByteWriter layers{.is_big_endian = true};
   if (psd.layers != 0) layers.number(2, word).number(uint64_t(psd.layers), 2).number(0, 4);
   if (!psd.block.empty()) layers.number(0, word).number(0, 4).text("8BIM").text(psd.block).number(0, word);
-  ByteWriter out{.is_big_endian = true};
+  test::ByteWriter out{.is_big_endian = true};
   out.text("8BPS").number(uint64_t(psd.version), 2).zeros(6).number(uint64_t(psd.channels), 2);
   out.number(uint64_t(psd.size.height), 4).number(uint64_t(psd.size.width), 4).number(uint64_t(psd.bits), 2);
   out.number(uint64_t(psd.mode), 2).number(psd.palette.size(), 4).add(psd.palette).number(4, 4).zeros(4);

@@ -21,7 +21,7 @@ struct Tga {
 
 /// 2x2 pixels.
 Bytes make_tga(const Tga& tga, const Bytes& data) {
-  ByteWriter out;
+  test::ByteWriter out;
   out.number(3, 1).number(0, 1).number(tga.type, 1).zeros(9).number(2, 2).number(2, 2);
   out.number(tga.depth, 1).number(tga.descriptor, 1).text("id.").add(data);
   if (tga.attributes < 0) return out.bytes;
