@@ -121,8 +121,8 @@ bool lays_courses(const LevelFacts& f) {
 }
 
 bool repairs_seams(const LevelFacts& f) {
-  return !is_draft(f) && f.level + f.kept > finest_whole_level && f.level <= step_tuning->coarsest_repaired &&
-         !f.steered;
+  const int finest = f.kept ? finest_whole_level : finest_whole_level + 1;
+  return !is_draft(f) && f.level >= finest && f.level <= step_tuning->coarsest_repaired && !f.steered;
 }
 
 /// Between kept pixels nothing is said about whole pieces; single ones hold together more instead. Nor where a target

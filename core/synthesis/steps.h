@@ -121,7 +121,7 @@ struct SharedWork {
   const SynthesisOptions& options;
   const Task& task;
   int levels;
-  ElementCourses courses;  ///< of the exemplar, if it repeats as a whole only and they are laid anew
+  ElementCourses courses;  ///< of the exemplar, if it repeats as a whole only, or not surely, and they are laid anew
   Repeats repeats;         ///< of the exemplar, as far as they count in the result
   Lattice lattice;         ///< theirs
   LatticeGaps gaps;        ///< between kept pixels

@@ -41,9 +41,9 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
   const Appearance& appearance = *index.appearance();
   const ElementsPtr& elements = appearance.elements();
   if (!elements || uv.size().area() < appearance.size().area()) return;
-  const Lattice lattice = repeats_in_result(appearance, options).lattice;
   if (!has_elements(appearance)) {
-    if (lattice.rank < 2 && !keeps_to_courses(lattice))
+    if (const Lattice lattice = repeats_in_result(appearance, options).lattice;
+        lattice.rank < 2 && !keeps_to_courses(lattice))
       node.warn(
           fmt::format("the exemplar's border cuts all but {} of its {} elements, too few to be laid as wholes: "
                       "they may be torn or melted together. An exemplar that shows more of them, or that tiles, "
@@ -53,7 +53,7 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
   }
   const ShownElements shown = shown_elements(uv, *elements, node.task());
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
-  if (shown.are_broken() && !are_in_step(*elements, lattice, appearance.wraps()))
+  if (shown.are_broken() && !are_in_step(*elements, repeats_in_result(appearance, options).lattice, appearance.wraps()))
     node.warn(
         counts +
         ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "

@@ -364,7 +364,7 @@ std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& 
   if (middle == twice.end() || middle->begin >= length / 2 + length) {
     // Nothing is cut there: a closed course goes around, at no cost if it meets itself, else by its cheapest cut.
     const CourseRun& going = *(middle - 1);
-    if (!labels.closed(going.course) || labels.cuts.empty()) return {};
+    if (!labels.closed(going.course) || labels.cuts_begin(going.course) == labels.cuts_end(going.course)) return {};
     if (length * fit.step % labels.length(going.course) == 0) {
       const int ahead = (going.begin / length + 1) * length - going.begin;
       return {{0, going.course, (going.from + ahead * fit.step) % labels.length(going.course)}};

@@ -150,7 +150,7 @@ class CourseLayout {
     std::vector<ColumnDescriptor> looks;
     for (const int u : random_sequence(joints, around, result_.length(), fit.step, more_random_bits(bits_, at)))
       looks.push_back(columns.looks[size_t(u)]);
-    const CourseCosts prices{.columns = {}, .cuts = prices_.of(at, {}).cuts};
+    const CourseCosts prices{.columns = {}, .cuts = prices_.cuts(at)};
     std::vector<CourseRun> runs = fitting_runs(looks, {{&columns}}, prices, fit);
     for (CourseRun& r : runs) r.course = c;
     return runs;

@@ -182,6 +182,7 @@ void require_same_exemplar(const InputForecasts& inputs) {
 
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence) {
+  if (!options.tile_x && !options.tile_y) return;
   const Lattice lattice = repeats_in_result(*index.appearance(), options).lattice;
   const auto is_unseen = [&](const Lattice& l, Size size) {
     return l.bent(size, options.tile_x, options.tile_y, size) <= l.unseen_bend();
