@@ -19,15 +19,20 @@ const Tunable<ElementCoursesTuning> element_courses_tuning(
     {{&ElementCoursesTuning::straight, "straight", "share of a line's pixels",
       "that are near joints, from which on a joint goes all along it. Higher: rough courses are repeated as they are; "
       "lower: elements that reach over two courses are cut",
-      "course_layout", 0.5, 1},
+      "band_layout", 0.5, 1},
      {&ElementCoursesTuning::most_aligned, "most_aligned", "share of the joints",
       "across a course that may go on in the next. Higher: panels that belong together part; lower: walls with some "
       "joints in line are repeated as they are",
-      "course_layout", 0, 1}});
+      "band_layout", 0, 1}});
 
-/// The middles of the runs of lines all along which there is a joint; around the border.
-std::vector<double> middles(const std::vector<uint8_t>& jointed) {
+/// The middles of the runs of lines all along which there is a joint; around the border of what `tiles`, and without
+/// those that another border cuts.
+std::vector<double> middles(std::vector<uint8_t> jointed, bool tiles) {
   const int n = int(jointed.size());
+  if (!tiles) {
+    std::fill(jointed.begin(), std::ranges::find(jointed, 0), 0);
+    std::fill(std::find(jointed.rbegin(), jointed.rend(), 0).base(), jointed.end(), 0);
+  }
   const int first = int(std::ranges::find(jointed, 0) - jointed.begin());
   std::vector<double> out;
   for (int i = first; i < first + n; i++) {
@@ -39,15 +44,16 @@ std::vector<double> middles(const std::vector<uint8_t>& jointed) {
   return out;
 }
 
-std::vector<double> beds_of(const JointMap& joints, bool rows) {
+std::vector<double> beds_of(const JointMap& joints, bool rows, bool tiles) {
   std::vector<uint8_t> jointed;
   for (const double share : joints.near_shares(rows)) jointed.push_back(share >= element_courses_tuning->straight);
-  return middles(jointed);
+  return middles(jointed, tiles);
 }
 
-std::vector<double> joints_across(const JointMap& joints, Size size, bool upright, double begin, double end) {
+std::vector<double> joints_across(const JointMap& joints, Size size, bool upright, bool tiles,
+                                  const ExemplarSpan& band) {
   const int length = upright ? size.height : size.width, breadth = upright ? size.width : size.height;
-  const int first = int(std::ceil(begin + joints.near())), last = int(std::floor(end - joints.near()));
+  const int first = int(std::ceil(band.from + joints.near())), last = int(std::floor(band.to - joints.near()));
   std::vector<uint8_t> out;
   for (int u = 0; u < length; u++) {
     int near = 0;
@@ -57,21 +63,47 @@ std::vector<double> joints_across(const JointMap& joints, Size size, bool uprigh
     }
     out.push_back(last >= first && near >= element_courses_tuning->straight * (last - first + 1));
   }
-  return middles(out);
+  return middles(out, tiles);
 }
 
-/// The share of joints across that have one of the next course near them. `length`: of courses.
-double aligned_share(const std::vector<std::vector<double>>& courses, int length, double near) {
+/// The share of joints across that have one of the next course near them. `around`: the length of courses that tile,
+/// of which the first is next to the last; 0: they do not.
+double aligned_share(const std::vector<std::vector<double>>& courses, int around, double near) {
   int aligned = 0, all = 0;
-  for (size_t c = 0; c < courses.size(); c++)
+  for (size_t c = 0; c + (around > 0 ? 0 : 1) < courses.size(); c++)
     for (const double at : courses[c]) {
       aligned += std::ranges::any_of(courses[(c + 1) % courses.size()], [&](double other) {
         const double d = std::abs(at - other);
-        return std::min(d, length - d) <= near;
+        return std::min(d, around > 0 ? around - d : d) <= near;
       });
       all++;
     }
   return all > 0 ? double(aligned) / all : 1;
+}
+
+/// From each place to the next. `around`: the length of an exemplar that tiles, whose last goes on around the border.
+std::vector<ExemplarSpan> spans_between(const std::vector<double>& places, int around) {
+  std::vector<ExemplarSpan> out;
+  for (size_t i = 0; i + 1 < places.size(); i++) out.push_back({places[i], places[i + 1]});
+  if (around > 0 && !places.empty()) out.push_back({places.back(), places[0] + around});
+  return out;
+}
+
+/// Whether an element in a piece of a course goes on beyond it.
+bool reaches_over(const Elements& elements, bool upright, bool tiles, const ExemplarSpan& band,
+                  const ExemplarSpan& piece) {
+  const auto element = [&](int along, double across) {
+    const int x = upright ? int(across) : along, y = upright ? along : int(across);
+    return elements
+        .at[size_t(wrap(y, elements.size.height)) * size_t(elements.size.width) + size_t(wrap(x, elements.size.width))];
+  };
+  const double beside = band.length() / 4;
+  for (int along = int(piece.from); along < int(piece.to); along++)
+    for (const double bed : {band.from, band.to}) {
+      const bool inside = bed - beside >= 0 && bed + beside < (upright ? elements.size.width : elements.size.height);
+      if ((tiles || inside) && element(along, bed - beside) == element(along, bed + beside)) return true;
+    }
+  return false;
 }
 
 }  // namespace
@@ -82,21 +114,25 @@ Lattice ElementCourses::lattice(Size exemplar) const {
   return {1, step, {}, 1};
 }
 
-ElementCourses element_courses(const Elements& elements) {
-  const JointMap joints(elements, true);
-  const std::vector<double> rows = beds_of(joints, true), columns = beds_of(joints, false);
+ElementCourses element_courses(const Elements& elements, bool tiles) {
+  const JointMap joints(elements, tiles);
+  const std::vector<double> rows = beds_of(joints, true, tiles), columns = beds_of(joints, false, tiles);
   if (rows.empty() == columns.empty()) return {};
-  ElementCourses out{.upright = rows.empty(), .beds = rows.empty() ? columns : rows, .joints = {}};
-  if (out.beds.size() < 2) return {};
-  const int breadth = out.upright ? elements.size.width : elements.size.height;
-  for (size_t k = 0; k < out.beds.size(); k++) {
-    const double end = k + 1 < out.beds.size() ? out.beds[k + 1] : out.beds[0] + breadth;
-    out.joints.push_back(joints_across(joints, elements.size, out.upright, out.beds[k], end));
+  const bool upright = rows.empty();
+  const int length = upright ? elements.size.height : elements.size.width;
+  const int breadth = upright ? elements.size.width : elements.size.height;
+  ElementCourses out{
+      .upright = upright, .bands = spans_between(upright ? columns : rows, tiles ? breadth : 0), .pieces = {}};
+  if (out.bands.size() < 2) return {};
+  std::vector<std::vector<double>> across;
+  for (const ExemplarSpan& band : out.bands) {
+    across.push_back(joints_across(joints, elements.size, upright, tiles, band));
+    out.pieces.push_back(spans_between(across.back(), tiles ? length : 0));
+    std::erase_if(out.pieces.back(),
+                  [&](const ExemplarSpan& p) { return reaches_over(elements, upright, tiles, band, p); });
+    if (out.pieces.back().size() < 2) return {};
   }
-  if (std::ranges::any_of(out.joints, [](const auto& joints) { return joints.size() < 2; })) return {};
-  if (aligned_share(out.joints, out.upright ? elements.size.height : elements.size.width, joints.near()) >
-      element_courses_tuning->most_aligned)
-    return {};
+  if (aligned_share(across, tiles ? length : 0, joints.near()) > element_courses_tuning->most_aligned) return {};
   return out;
 }
 

@@ -7,22 +7,24 @@
 
 namespace terrazzo {
 
-/// Courses of different heights that an exemplar which tiles has once each, as its elements tell them.
+/// Courses of different heights that an exemplar has once each, as its elements tell them.
 struct ElementCourses {
-  bool upright = false;      ///< they are columns
-  std::vector<double> beds;  ///< the middles of joints that go all along the exemplar; pixels across, ascending
-  /// Of the course from each bed to the next, the last around the border: the middles of joints that go all across it;
-  /// pixels along it, ascending.
-  std::vector<std::vector<double>> joints;
+  bool upright = false;  ///< they are columns
+  std::vector<ExemplarSpan>
+      bands;  ///< across: each course, from the middle of one joint all along the exemplar to the next
+  /// Of each of them, along it: what lies between two joints that go all across it. Without what reaches over several
+  /// courses.
+  std::vector<std::vector<ExemplarSpan>> pieces;
 
-  bool empty() const { return beds.empty(); }
+  bool empty() const { return bands.empty(); }
   /// As a lattice: one band as high, or as wide, as the exemplar. Rank 0 if empty.
   Lattice lattice(Size exemplar) const;
 };
 
-/// Of an exemplar that tiles. Empty if joints go all along it both ways, in no way or only once, if fewer than two go
-/// across one of the courses, or if those go on from course to course: then what lies side by side belongs together.
-/// Thread-safe.
-ElementCourses element_courses(const Elements& elements);
+/// `tiles`: the exemplar does, and courses and pieces go on around its border; of one that does not, those that its
+/// border cuts do not count. Empty if joints go all along it both ways or in no way, if there are fewer than two
+/// courses, or pieces in one of them, or if joints go on from course to course: then what lies side by side belongs
+/// together. Thread-safe.
+ElementCourses element_courses(const Elements& elements, bool tiles);
 
 }  // namespace terrazzo

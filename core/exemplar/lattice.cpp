@@ -233,7 +233,25 @@ LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const V
     bent_x_ = bent(size.width, shown.misfit(size.width, true), level, bends_x ? gaps.x : LatticeGap{});
     bent_y_ = bent(size.height, shown.misfit(size.height, false), level, bends_y ? gaps.y : LatticeGap{});
   }
+  if (!surface.bands.empty()) {
+    const bool columns = lattice.first.x() != 0;
+    bent_x_ = bent_to(columns ? surface.bands : std::vector<ShownSpan>(), size.width, lattice.first.x(), level);
+    bent_y_ = bent_to(columns ? std::vector<ShownSpan>() : surface.bands, size.height, lattice.first.y(), level);
+  }
   if (active() && !resolves_cells_) find_promising_steps();
+}
+
+std::vector<Vector2d> LatticePhase::bent_to(const std::vector<ShownSpan>& bands, int length, double step,
+                                            int level) const {
+  const double scale = double(int64_t{1} << level);
+  std::vector<Vector2d> out(size_t(length / scale) + 2);
+  for (size_t i = 0; i < out.size() && !bands.empty(); i++) {
+    double at = double(i) * scale;
+    if (at < bands.front().begin) at += length;
+    const ShownSpan& b = *(std::ranges::upper_bound(bands, at, {}, &ShownSpan::begin) - 1);
+    out[i].x() = to_output_.row(0).sum() * double(i) - origin_.x() - (at + b.shift(at)) / step;
+  }
+  return out;
 }
 
 std::vector<Vector2d> LatticePhase::bent(int length, const Vector2d& misfit, int level, const LatticeGap& gap) const {

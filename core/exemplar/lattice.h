@@ -80,6 +80,31 @@ struct LatticeGaps {
   LatticeGap x, y;
 };
 
+/// Part of an exemplar along one axis, in pixels; may go on around the border of one that tiles.
+struct ExemplarSpan {
+  double from, to;
+  double length() const { return to - from; }
+};
+/// Which one a surface shows from one place to another, in pixels of the finest level. Its ends are shown where they
+/// are: what is too much is left out at `cut`, what is missing is repeated there; a pixel at each end is hidden in its
+/// joints.
+struct ShownSpan {
+  double begin, end;  ///< of the surface
+  int number;         ///< among the exemplar's
+  ExemplarSpan shown;
+  double cut;  ///< of the surface
+
+  double too_much() const { return shown.length() - (end - begin); }
+  bool is_cut() const { return std::abs(too_much()) > 1; }
+  /// From a place on the surface to what it shows of the exemplar, in whole pixels.
+  int shift(double place) const {
+    const double by = !is_cut()     ? shown.from - begin + too_much() / 2
+                      : place < cut ? shown.from - begin
+                                    : shown.to - end;
+    return int(std::floor(by + 0.5));
+  }
+};
+
 /// The result that a lattice is shown on, in pixels of its finest level.
 struct LatticeSurface {
   Size size;
@@ -87,6 +112,8 @@ struct LatticeSurface {
   bool wraps_y = false;
   Vector2d origin{};   ///< the position at which the exemplar's start is in phase
   LatticeGaps gaps{};  ///< along which of the axes in which it wraps the lattice is bent, and where
+  /// If it shows the bands of one repeat in an order of their own: those, in that order, instead of all the above.
+  std::vector<ShownSpan> bands{};
 };
 
 /// Tells whether exemplar positions are in phase with output positions, at the scale of one pyramid level: whether both
@@ -157,6 +184,8 @@ class LatticePhase {
   /// What bending adds to cells() at each of the level's pixels along x or y, an axis of `length` pixels of the finest
   /// level on which the lattice misses whole cells by `misfit`.
   std::vector<Vector2d> bent(int length, const Vector2d& misfit, int level, const LatticeGap& gap) const;
+  /// The same for bands in an order of their own. `step`: the lattice's, in pixels of the finest level.
+  std::vector<Vector2d> bent_to(const std::vector<ShownSpan>& bands, int length, double step, int level) const;
   /// What it costs to take a step: of several positions in phase the nearest is the best.
   [[gnu::always_inline]] static double cost(double penalty, int dx, int dy) {
     return penalty + 0.001 * (dx * dx + dy * dy);

@@ -23,8 +23,8 @@ Effort effort_of(const LevelFacts& f) {
     if (f.level <= 1) return {f.kept ? 3 : f.level + 1, 0, &sparse_window()};
     return {5, f.level >= 3 ? 16 : 4, &full_window()};
   }
-  // Whole elements are squeezed to fit: more passes would pull them apart again.
-  if (f.kept && f.level <= 1 && !f.lays_elements()) return {6, 4, &full_window()};
+  // Whole elements are squeezed to fit, and bands are laid anew: more passes would pull them apart again.
+  if (f.kept && f.level <= 1 && !f.lays_elements() && !f.bands) return {6, 4, &full_window()};
   if (f.quality == Quality::best) {
     if (f.level <= 1) return {f.level == 0 ? 4 : 6, f.level == 0 ? 0 : 4, &full_window()};
     return {16, f.level >= 3 ? 24 : 8, &full_window()};

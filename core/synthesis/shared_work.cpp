@@ -5,6 +5,7 @@
 #include "core/synthesis/state/lattice_origin.h"
 #include "core/synthesis/state/purpose.h"
 #include "core/synthesis/steps.h"
+#include "core/synthesis/steps/band_layout.h"
 #include "core/synthesis/steps/element_layout.h"
 
 namespace terrazzo {
@@ -47,13 +48,17 @@ Vector2d lattice_start(const Repeats& repeats, const SynthesisOptions& o) {
 ElementCourses single_courses(const Appearance& appearance, const SynthesisOptions& options) {
   const Lattice& l = appearance.lattice();
   const bool laid = options.whole_bricks && options.quality != Quality::draft && options.controls.empty();
-  if (!laid || l.rank == 0 || !appearance.wraps() || !appearance.elements()) return {};
+  if (!laid || l.rank == 0 || !appearance.elements()) return {};
   const bool as_whole = l.is_single_cell(appearance.size()) || (l.rank == 1 && l.comes_once(appearance.size()));
-  const bool sure = l.rank == 1 ? keeps_to_courses(l) : are_in_step(*appearance.elements(), l, true);
+  const bool sure = l.rank == 1 ? keeps_to_courses(l) : are_in_step(*appearance.elements(), l, appearance.wraps());
   if (sure && !as_whole) return {};
-  ElementCourses courses = element_courses(*appearance.elements());
+  ElementCourses courses = element_courses(*appearance.elements(), appearance.wraps());
   const double breadth = courses.upright ? appearance.size().width : appearance.size().height;
-  return breadth >= shared_work_tuning->shortest_course * double(courses.beds.size()) ? courses : ElementCourses();
+  return breadth >= shared_work_tuning->shortest_course * double(courses.bands.size()) ? courses : ElementCourses();
+}
+
+std::vector<ShownSpan> bands_in_result(const ElementCourses& courses, Size exemplar, const SynthesisOptions& o) {
+  return bands_of(courses, exemplar, {o.size, o.tile_x, o.tile_y}, o.kept, random_bits(o.seed, Purpose::courses));
 }
 
 /// Whether elements lie in phase with a lattice of cells.
@@ -71,8 +76,9 @@ Repeats repeats_of(const Appearance& appearance, const ElementCourses& courses, 
 }
 
 /// Elements that lie in phase with a lattice of cells keep to it, and so do bricks and boards of straight courses.
-WholeElements whole_elements_of(const Appearance& appearance, const Repeats& repeats, const SynthesisOptions& options) {
-  if (!options.whole_bricks || !has_elements(appearance)) return WholeElements::none;
+WholeElements whole_elements_of(const Appearance& appearance, const Repeats& repeats, const ElementCourses& courses,
+                                const SynthesisOptions& options) {
+  if (!options.whole_bricks || !courses.empty() || !has_elements(appearance)) return WholeElements::none;
   const Lattice& lattice = repeats.lattice;
   if (!is_grid(lattice, appearance))
     return keeps_to_courses(lattice) && options.kept.empty() ? WholeElements::none : WholeElements::free;
@@ -85,6 +91,20 @@ WholeElements whole_elements_of(const Appearance& appearance, const Repeats& rep
 
 Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options) {
   return repeats_of(appearance, single_courses(appearance, options), options);
+}
+
+bool repeats_fit(const Appearance& appearance, const SynthesisOptions& options) {
+  const ElementCourses courses = single_courses(appearance, options);
+  const Repeats repeats = repeats_of(appearance, courses, options);
+  const auto is_unseen = [&](const Lattice& l) {
+    return l.bent(options.size, options.tile_x, options.tile_y, options.size) <= l.unseen_bend();
+  };
+  if (courses.empty())
+    return is_unseen(repeats.lattice) &&
+           std::ranges::all_of(repeats.parts, [&](const LatticePart& part) { return is_unseen(part.shown); });
+  return std::ranges::all_of(bands_in_result(courses, appearance.size(), options), [](const ShownSpan& b) {
+    return std::abs(b.too_much()) <= std::max(1.0, Lattice().unseen_bend() * b.shown.length());
+  });
 }
 
 bool keeps_to_courses(const Lattice& lattice) {
@@ -105,10 +125,11 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       courses(single_courses(*index.appearance(), options)),
       repeats(repeats_of(*index.appearance(), courses, options)),
       lattice(repeats.lattice),
+      bands(bands_in_result(courses, index.appearance()->size(), options)),
       gaps(options.kept.gaps(options.size)),
       origin(lattice_start(repeats, options)),
       controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task),
-      elements(whole_elements_of(*index.appearance(), repeats, options)) {}
+      elements(whole_elements_of(*index.appearance(), repeats, courses, options)) {}
 
 Plane SharedWork::plane(int level) const {
   return {level_size(options.size, level), options.tile_x, options.tile_y};
@@ -123,8 +144,12 @@ double SharedWork::jitter(int level) const {
 /// fit, is cut where the result wraps.
 LatticeSurface SharedWork::surface() const {
   const bool fits = options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y);
-  return {options.size, options.tile_x && (fits || gaps.x.length > 0), options.tile_y && (fits || gaps.y.length > 0),
-          origin, gaps};
+  return {options.size,
+          options.tile_x && (fits || gaps.x.length > 0),
+          options.tile_y && (fits || gaps.y.length > 0),
+          origin,
+          gaps,
+          bands};
 }
 
 const Lattice* SharedWork::element_lattice() const {
@@ -139,6 +164,7 @@ LevelFacts SharedWork::facts(int level) const {
           .regular = lattice.rank > 0,
           .kept = !options.kept.empty(),
           .steered = !controls.empty(),
+          .bands = !bands.empty(),
           .may_have_bricks = options.whole_bricks && repeats.parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),
           .elements = elements};

@@ -9,6 +9,7 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/state/piece_limits.h"
+#include "core/synthesis/steps/band_layout.h"
 #include "core/synthesis/steps/correction.h"
 #include "core/synthesis/steps/course_layout.h"
 #include "core/synthesis/steps/element_cores.h"
@@ -116,8 +117,12 @@ bool keeps_pixels(const LevelFacts& f) {
 
 /// Bricks are laid whole where only seams still move, before they look for the pixel.
 bool lays_courses(const LevelFacts& f) {
-  return f.may_have_bricks && !f.lays_elements() && f.level < finest_whole_level && moves_seams(f) && !f.steered &&
-         !f.kept;
+  return f.may_have_bricks && !f.bands && !f.lays_elements() && f.level < finest_whole_level && moves_seams(f) &&
+         !f.steered && !f.kept;
+}
+
+bool lays_bands(const LevelFacts& f) {
+  return f.bands && f.level < finest_whole_level;
 }
 
 bool repairs_seams(const LevelFacts& f) {
@@ -171,13 +176,19 @@ void start_where_kept(StepContext& c) {
 /// would keep stubs of joints.
 void lay_whole_bricks(StepContext& c) {
   const Appearance& appearance = *c.shared.index.appearance();
-  const ElementCourses& courses = c.shared.courses;
-  const Coursing coursing = courses.empty() ? find_coursing(appearance, c.task) : coursing_of(courses, appearance);
+  const Coursing coursing = find_coursing(appearance, c.task);
   const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
-  if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.bits(Purpose::courses), c.task)) return;
+  if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.task)) return;
   const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
   const int reach = step_tuning->seam_reach_around_bricks;
   c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,
+                      .distance_penalty = step_tuning->stay_around_bricks};
+}
+
+void lay_single_courses(StepContext& c) {
+  lay_bands(c.field, c.level, *c.shared.index.appearance(), c.shared.courses, c.shared.bands, c.bits(Purpose::courses),
+            c.task);
+  c.seams = SeamMoves{.reach = step_tuning->seam_reach_around_clear_bricks,
                       .distance_penalty = step_tuning->stay_around_bricks};
 }
 
@@ -250,6 +261,8 @@ const Step all_steps[] = {
     {"fixed_pixels", Phase::upsampling, "kept pixels get their old content back", keeps_pixels, start_where_kept},
     {"course_layout", Phase::upsampling, "courses are rebuilt from whole bricks and boards", lays_courses,
      lay_whole_bricks},
+    {"band_layout", Phase::upsampling, "courses that come once are laid in random order", lays_bands,
+     lay_single_courses},
     {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes",
      [](const LevelFacts& f) { return f.lays_elements(); }, lay_whole_elements},
     {"element_cores", Phase::upsampling, "small tiles and bricks become whole where they lie",

@@ -30,7 +30,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 32;
+inline constexpr int synthesis_version = 33;
 
 /// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
 /// are: there bricks and elements are laid, and seams moved for the last time.
@@ -65,6 +65,7 @@ struct LevelFacts {
   bool regular = false;  ///< the exemplar has a lattice
   bool kept = false;     ///< some of the output's pixels are given (SynthesisOptions::kept)
   bool steered = false;  ///< controls say what goes where
+  bool bands = false;    ///< courses that the exemplar has once each are laid anew
   /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
   /// or of cells that are worth it.
   bool may_have_bricks = false;
@@ -102,6 +103,8 @@ int reach_of(int passes);
 /// How an exemplar repeats in a result: courses that come once each along them only, where they are laid anew, and not
 /// at all where controls say what goes where.
 Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options);
+/// Whether a result that wraps shows them without bending them more than can be seen.
+bool repeats_fit(const Appearance& appearance, const SynthesisOptions& options);
 
 /// What all levels of a synthesis share. What it is made from must outlive it. Thread-safe to read.
 struct SharedWork {
@@ -124,8 +127,9 @@ struct SharedWork {
   ElementCourses courses;  ///< of the exemplar, if it repeats as a whole only, or not surely, and they are laid anew
   Repeats repeats;         ///< of the exemplar, as far as they count in the result
   Lattice lattice;         ///< theirs
-  LatticeGaps gaps;        ///< between kept pixels
-  Vector2d origin;         ///< where the lattice starts in the result
+  std::vector<ShownSpan> bands;  ///< those courses, as the result shows them
+  LatticeGaps gaps;              ///< between kept pixels
+  Vector2d origin;               ///< where the lattice starts in the result
   ControlPyramid controls;
   WholeElements elements;
   int finest = 0;  ///< the level that ends the work, for progress

@@ -15,6 +15,7 @@
 
 #include "core/synthesis/synthesize.h"
 #include "test_paths.h"
+#include "tests/drawn_panels.h"
 #include "tests/drawn_stones.h"
 #include "tests/drawn_tiles.h"
 #include "tests/drawn_wall.h"
@@ -70,6 +71,7 @@ std::vector<SteppedCase> stepped_cases() {
       {"stones", indexed(known), {.size = {200, 180}}},
       {"tiles", DrawnTiles(10).index(true), {.size = {100, 90}}},
       {"grid", DrawnTiles(72).crooked().index(true), {.size = {200, 180}}},
+      {"panels", make_index(DrawnPanels(false).appearance(), 3, Task()), {.size = {300, 250}}},
       {"kept", plain, kept},
       {"steered", plain, steered},
   };

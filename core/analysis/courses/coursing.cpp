@@ -266,35 +266,6 @@ bool Coursing::is_clear() const {
   return separability >= coursing_tuning->clear;
 }
 
-Coursing coursing_of(const ElementCourses& found, const Appearance& appearance) {
-  const Size size = appearance.size();
-  const int breadth = found.upright ? size.width : size.height;
-  const auto courses = double(found.beds.size());
-  Coursing out;
-  while (breadth / courses / (1 << out.level) > coursing_tuning->largest_period &&
-         out.level + 1 < int(appearance.levels().size()))
-    out.level++;
-  const int scale = 1 << out.level;
-  const Size of_level = appearance.levels()[size_t(out.level)].size;
-  out.axes.upright = found.upright;
-  out.around = found.upright ? Size{of_level.height, of_level.width} : of_level;
-  out.period = double(breadth) / scale;
-  out.half_joint = 1;
-  out.comes_once = true;
-  out.separability = std::numeric_limits<double>::infinity();
-  for (const double bed : found.beds) out.beds.push_back(bed / scale);
-  for (size_t k = 0; k < found.beds.size(); k++) {
-    const double end = k + 1 < found.beds.size() ? out.beds[k + 1] : out.beds[0] + out.period;
-    ExemplarCourse course{out.beds[k], end, int(k), {}};
-    course.joint.assign(size_t(out.around.width), 0);
-    for (const double joint : found.joints[k])
-      for (int d = -out.half_joint; d <= out.half_joint; d++)
-        course.joint[size_t(wrap(int(joint / scale) + d, out.around.width))] = 1;
-    out.courses.push_back(std::move(course));
-  }
-  return out;
-}
-
 Coursing find_coursing(const Appearance& appearance, const Task& task) {
   const Lattice& lattice = appearance.lattice();
   Coursing out;

@@ -8,7 +8,6 @@
 #include "core/base/geometry.h"
 #include "core/base/task.h"
 #include "core/exemplar/appearance.h"
-#include "core/exemplar/element_courses.h"
 
 namespace terrazzo {
 
@@ -23,7 +22,6 @@ struct Coursing {
   /// Of an exemplar that tiles: pixels along and across courses after which it comes again. Else {0, 0}. Courses may
   /// go on around the border then.
   Size around{};
-  bool comes_once = false;  ///< each kind has but one course, whose joints are known: they are laid in any order
   double separability = 0;  ///< of joints and bricks, in standard deviations; the least of all kinds
   bool empty() const { return courses.empty(); }
   bool is_clear() const;
@@ -37,9 +35,6 @@ struct Coursing {
     return from_middle >= -half && from_middle < half;
   }
 };
-
-/// Of courses that an exemplar which tiles has once each.
-Coursing coursing_of(const ElementCourses& courses, const Appearance& appearance);
 
 /// Finds bed joints by the period of the lattice's courses or columns, then head joints by what separates bed joints
 /// from bricks (Fisher's linear discriminant, 1936). Empty if the lattice has no courses, or joints are not separable.

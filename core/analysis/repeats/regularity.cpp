@@ -251,7 +251,7 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
   FoundLattice out = found;
   if (!are_in_step(*elements, l, true))
     if (const Lattice of_few = lattice_of_few(*elements, l); of_few.rank > 0) out.lattice = of_few;
-  if (out.lattice.is_single_cell(size)) out.courses = int(element_courses(*elements).beds.size());
+  if (out.lattice.is_single_cell(size)) out.courses = int(element_courses(*elements, true).bands.size());
   return out;
 }
 

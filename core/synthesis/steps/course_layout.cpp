@@ -6,12 +6,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/analysis/courses/head_joints.h"
-#include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/steps/course_fitting.h"
 #include "core/synthesis/steps/course_prices.h"
-#include "core/synthesis/steps/course_sequence.h"
 #include "core/synthesis/steps/exemplar_courses.h"
 #include "core/synthesis/steps/result_courses.h"
 
@@ -62,14 +59,13 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
 class CourseLayout {
  public:
   CourseLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
-               const LatticePhase& phase, uint64_t bits, const Task& task)
+               const LatticePhase& phase, const Task& task)
       : field_(field),
         level_(level),
         appearance_(appearance),
         looks_(appearance.levels()[size_t(coursing.level)]),
         coursing_(coursing),
         phase_(phase),
-        bits_(bits),
         task_(task),
         result_(field, level, coursing, phase),
         columns_(exemplar_courses(appearance, coursing, level.exemplar, result_.step())),
@@ -112,10 +108,7 @@ class CourseLayout {
   void lay_course(int at) {
     task_.check();
     ResultCourse& course = result_.all[size_t(at)];
-    if (coursing_.comes_once)
-      course.runs = random_runs(at);
-    else
-      course.runs = runs_as_shown(at);
+    course.runs = runs_as_shown(at);
     for (size_t i = 0; i < course.runs.size(); i++) show(course.runs[i], result_.end_of(course, i), course);
   }
 
@@ -130,29 +123,6 @@ class CourseLayout {
     if (appearance_.lattice().rank == 2) prices.cuts.clear();
     std::vector<CourseRun> runs = fitting_runs(looks_of(course), courses, prices, fit_);
     for (CourseRun& r : runs) r.course = tried[size_t(r.course)];
-    return runs;
-  }
-
-  /// What lies between two joints is a run, however short.
-  std::vector<CourseRun> random_runs(int at) const {
-    const int c = result_.all[size_t(at)].kind, around = coursing_.around.width;
-    const CourseColumns& columns = columns_[size_t(c)];
-    std::vector<int> joints;
-    for (const double joint : sure_joints(coursing_.courses[size_t(c)])) joints.push_back(int(joint));
-    if (joints.empty()) return {};
-    CourseFit fit = fit_;
-    for (size_t i = 0; i < joints.size(); i++) {
-      const int next = i + 1 < joints.size() ? joints[i + 1] : joints[0] + around;
-      const int shortest = (next - joints[i] - 2 * CourseColumns::farthest_joint_offset) / fit.step;
-      fit.shortest = std::max(1, std::min(fit.shortest, shortest));
-    }
-    fit.least_step_back = 1;
-    std::vector<ColumnDescriptor> looks;
-    for (const int u : random_sequence(joints, around, result_.length(), fit.step, more_random_bits(bits_, at)))
-      looks.push_back(columns.looks[size_t(u)]);
-    const CourseCosts prices{.columns = {}, .cuts = prices_.cuts(at)};
-    std::vector<CourseRun> runs = fitting_runs(looks, {{&columns}}, prices, fit);
-    for (CourseRun& r : runs) r.course = c;
     return runs;
   }
 
@@ -267,7 +237,6 @@ class CourseLayout {
   const AppearanceLevel& looks_;
   const Coursing& coursing_;
   const LatticePhase& phase_;
-  uint64_t bits_;
   const Task& task_;
   ResultCourses result_;
   std::vector<CourseColumns> columns_;  // of each course of the exemplar
@@ -279,8 +248,8 @@ class CourseLayout {
 }  // namespace
 
 bool lay_courses(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Coursing& coursing,
-                 const LatticePhase& phase, uint64_t bits, const Task& task) {
-  return !coursing.empty() && CourseLayout(field, level, appearance, coursing, phase, bits, task).lay();
+                 const LatticePhase& phase, const Task& task) {
+  return !coursing.empty() && CourseLayout(field, level, appearance, coursing, phase, task).lay();
 }
 
 }  // namespace terrazzo

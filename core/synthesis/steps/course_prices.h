@@ -22,10 +22,9 @@ class CoursePrices {
   /// The prices of course number `at`. `tried`: the exemplar's courses that it may show; prices name them by their
   /// place in that list.
   CourseCosts of(int at, const std::vector<int>& tried) const;
-  /// Those of them for cuts alone.
-  std::vector<int32_t> cuts(int at) const;
 
  private:
+  std::vector<int32_t> cuts(int at) const;
   void add_repeats(int at, const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;
   void add_continued(const ResultCourse& course, const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;
   void add_use(const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;

@@ -54,18 +54,17 @@ bool shows(const PaddedLevel& exemplar, const Coursing& coursing, int along, int
   return exemplar.holds(x, y);
 }
 
-/// Joints can be cut in or near their middle, at no cost if they are `free`; bricks at some columns, at a higher cost.
+/// Joints can be cut in or near their middle, bricks at some columns, at a higher cost.
 /// `closed`: the course goes on around the exemplar's border.
-std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double height, bool closed, bool free) {
+std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double height, bool closed) {
   constexpr int far = CourseColumns::farthest_joint_offset;
   const ExemplarCoursesTuning t = *exemplar_courses_tuning;
-  const double in_joint = free ? 0 : t.cut_joint;
   const int length = int(course.joint.size());
   const int spacing = std::max(1, int((course.end - course.begin) * t.brick_cut_spacing));
   std::map<int, CourseColumns::Cut> out;
   const auto add = [&](int at, double brick, int joint_offset) {
     const int u = closed ? wrap(at, length) : at;
-    out[u] = {u, int32_t((in_joint + (t.cut_brick - in_joint) * brick) * cost_unit * height), joint_offset};
+    out[u] = {u, int32_t((t.cut_joint + (t.cut_brick - t.cut_joint) * brick) * cost_unit * height), joint_offset};
   };
   for (int u = 0; u < length; u += spacing) add(u, 1, 0);
   const auto joint = [&](int u) { return course.joint[size_t(wrap(u, length))]; };
@@ -135,7 +134,7 @@ CourseColumns columns_of(const Appearance& appearance, const Coursing& coursing,
     out.looks.push_back(means.means());
     out.usable.push_back(usable);
   }
-  out.cuts = cuts_of(course, (course.end - course.begin) / step, out.closed, coursing.comes_once);
+  out.cuts = cuts_of(course, (course.end - course.begin) / step, out.closed);
   return out;
 }
 

@@ -184,15 +184,13 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
                              std::string_view consequence) {
   if (!options.tile_x && !options.tile_y) return;
   const Lattice lattice = repeats_in_result(*index.appearance(), options).lattice;
-  const auto is_unseen = [&](const Lattice& l, Size size) {
-    return l.bent(size, options.tile_x, options.tile_y, size) <= l.unseen_bend();
-  };
+  if (repeats_fit(*index.appearance(), options)) return;
+  SynthesisOptions other = options;
+  other.kept = {};
   const auto fits = [&](Size size) {
-    return is_unseen(lattice, size) && std::ranges::all_of(index.appearance()->repeats().parts, [&](const auto& part) {
-             return is_unseen(part.shown, size);
-           });
+    other.size = size;
+    return repeats_fit(*index.appearance(), other);
   };
-  if (fits(options.size)) return;
   std::string advice = "no size near it would";
   // The smaller the allowed distortion, the closer the size must be to whole repeats.
   for (const int part : {1, 4, 16}) {

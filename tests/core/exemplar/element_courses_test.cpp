@@ -38,38 +38,69 @@ int panels(int x, int y) {
 
 TEST_CASE("courses of different heights are found by the joints along them and across, lying and standing") {
   for (const bool turned : {false, true}) {
-    const ElementCourses found = element_courses(elements(panels, turned));
-    REQUIRE(found.beds.size() == 3);
+    const ElementCourses found = element_courses(elements(panels, turned), true);
+    REQUIRE(found.bands.size() == 3);
     CHECK(found.upright == turned);
     CHECK(found.lattice(turned ? Size{180, 240} : size).first == (turned ? Vector2d{180, 0} : Vector2d{0, 180}));
-    for (size_t k = 0; k < 3; k++) CHECK(std::abs(found.beds[k] - std::array{20, 70, 160}[k]) <= 1);
     for (size_t k = 0; k < 3; k++) {
-      const int course = course_of(int(found.beds[k]) + 5), width = std::array{60, 80, 48}[size_t(course)];
-      REQUIRE(int(found.joints[k].size()) == size.width / width);
-      for (size_t i = 0; i < found.joints[k].size(); i++)
-        CHECK(std::abs(found.joints[k][i] - (course * 13 + 7 + int(i) * width)) <= 1);
+      const ExemplarSpan band = found.bands[k];
+      CHECK(std::abs(band.from - std::array{20, 70, 160}[k]) <= 1);
+      CHECK(std::abs(band.to - std::array{70, 160, 200}[k]) <= 1);  // the last goes on around the border
+      const int course = course_of(int(band.from) + 5), width = std::array{60, 80, 48}[size_t(course)];
+      REQUIRE(int(found.pieces[k].size()) == size.width / width);
+      for (size_t i = 0; i < found.pieces[k].size(); i++) {
+        CHECK(std::abs(found.pieces[k][i].from - (course * 13 + 7 + int(i) * width)) <= 1);
+        CHECK(std::abs(found.pieces[k][i].length() - width) <= 1);
+      }
     }
   }
 }
 
 TEST_CASE("what lies side by side in two courses, or goes on over both, is not parted") {
-  CHECK(!element_courses(elements(panels)).empty());
+  CHECK(!element_courses(elements(panels), true).empty());
   // A grid has joints along it both ways.
-  CHECK(element_courses(elements([](int x, int y) { return y / 60 * 10 + x / 60; })).empty());
+  CHECK(element_courses(elements([](int x, int y) { return y / 60 * 10 + x / 60; }), true).empty());
   // Joints go on from course to course but for one that a panel closes.
-  CHECK(element_courses(elements([](int x, int y) {
-          return y / 60 * 10 + (y >= 60 && y < 120 && x / 60 == 1 ? 0 : x / 60);
-        })).empty());
+  CHECK(element_courses(
+            elements([](int x, int y) { return y / 60 * 10 + (y >= 60 && y < 120 && x / 60 == 1 ? 0 : x / 60); }), true)
+            .empty());
   // A panel reaches over two of the three courses: the joint between those does not go all along.
   const ElementCourses two = element_courses(
-      elements([](int x, int y) { return x >= 110 && x < 150 && y >= 20 && y < 160 ? 99 : panels(x, y); }));
-  CHECK(two.beds.size() == 2);
+      elements([](int x, int y) { return x >= 110 && x < 150 && y >= 20 && y < 160 ? 99 : panels(x, y); }), true);
+  CHECK(two.bands.size() == 2);
+  // One that reaches into the next course a little is in none of the pieces, the others are.
+  const auto narrow = [&](int x, int y) { return x >= 127 && x < 136 && y >= 20 && y < 110 ? 99 : panels(x, y); };
+  const ElementCourses some = element_courses(elements(narrow), true);
+  REQUIRE(some.bands.size() == 3);
+  for (size_t k = 0; k < 2; k++)
+    for (const ExemplarSpan& piece : some.pieces[k]) CHECK((piece.to <= 128 || piece.from >= 135));
   // A rail without joints, or with one.
   for (const int rail : {1, 240})
-    CHECK(element_courses(elements([&](int x, int y) {
-            return y < 20 || y >= 160 ? 200 + (x < rail) : panels(x, y);
-          })).empty());
+    CHECK(element_courses(elements([&](int x, int y) { return y < 20 || y >= 160 ? 200 + (x < rail) : panels(x, y); }),
+                          true)
+              .empty());
   // Columns without joints across.
-  CHECK(element_courses(elements([](int x, int) { return (x + 20) / 60; })).empty());
-  CHECK(element_courses(Elements{size, std::vector<uint16_t>(size_t(size.area())), 1, 1}).empty());
+  CHECK(element_courses(elements([](int x, int) { return (x + 20) / 60; }), true).empty());
+  CHECK(element_courses(Elements{size, std::vector<uint16_t>(size_t(size.area())), 1, 1}, true).empty());
+}
+
+TEST_CASE("of an exemplar that does not tile only what its border does not cut counts") {
+  // Four courses, the first and the last of which the border cuts, as it does the panels at their ends.
+  const auto wall = [](int x, int y) {
+    const int course = y < 25 ? 0 : y < 75 ? 1 : y < 145 ? 2 : 3;
+    return course * 100 + (x + 17 * course) / 50;
+  };
+  for (const bool turned : {false, true}) {
+    const ElementCourses found = element_courses(elements(wall, turned), false);
+    REQUIRE(found.bands.size() == 2);
+    CHECK(found.upright == turned);
+    CHECK(std::abs(found.bands[0].from - 25) <= 1);
+    CHECK(std::abs(found.bands[1].to - 145) <= 1);
+    for (const auto& pieces : found.pieces)
+      for (const ExemplarSpan& p : pieces) {
+        CHECK(p.from > 0);
+        CHECK(p.to < size.width);
+        CHECK(std::abs(p.length() - 50) <= 1);
+      }
+  }
 }

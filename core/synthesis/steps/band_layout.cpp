@@ -1,0 +1,176 @@
+#include "core/synthesis/steps/band_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/hash.h"
+#include "core/synthesis/state/span_order.h"
+
+namespace terrazzo {
+
+namespace {
+
+class BandLayout {
+ public:
+  BandLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const ElementCourses& courses,
+             uint64_t bits)
+      : field_(field),
+        level_(level),
+        looks_(appearance.levels().front()),
+        courses_(courses),
+        bits_(bits),
+        tiles_(appearance.wraps()) {
+    const Size exemplar = level.exemplar.size();
+    along_ = line(exemplar.width, exemplar.height, field.size.width, field.size.height, level.window.closed_x,
+                  level.window.closed_y);
+    across_ = line(exemplar.height, exemplar.width, field.size.height, field.size.width, level.window.closed_y,
+                   level.window.closed_x);
+  }
+
+  void lay(const std::vector<ShownSpan>& bands, const Task& task) {
+    std::vector<ShownSpan> before;
+    for (size_t i = 0; i < bands.size(); i++) {
+      task.check();
+      std::vector<ShownSpan> pieces = pieces_of(bands[i], i, before);
+      show(bands[i], pieces);
+      before = std::move(pieces);
+      task.progress(double(i + 1) / double(bands.size()));
+    }
+  }
+
+ private:
+  /// Of one axis if courses lie, of the other if they stand.
+  SpanLine line(int exemplar, int exemplar_if_upright, int result, int result_if_upright, bool closed,
+                bool closed_if_upright) const {
+    if (courses_.upright) return {exemplar_if_upright, result_if_upright * level_.block, closed_if_upright};
+    return {exemplar, result * level_.block, closed};
+  }
+
+  /// Calls `f(pixel of the field, along, across)` for what begins between two places along a line, in pixels of the
+  /// finest level, around the border of a result that wraps.
+  template <class F>
+  void for_pixels(const ShownSpan& band, const ShownSpan& piece, const F& f) const {
+    const int block = level_.block;
+    const auto first = [&](double at) { return int(std::ceil(at / block)); };
+    for (int v = first(band.begin); v < first(band.end); v++)
+      for (int u = first(piece.begin); u < first(piece.end); u++) {
+        const auto [x, y] = courses_.upright ? std::pair(v, u) : std::pair(u, v);
+        if (const int64_t i = level_.window.field().index(x, y); i >= 0) f(i, u * block, v * block);
+      }
+  }
+
+  /// What tiles goes on beyond its border, also within a block.
+  bool holds(int u, int v) const { return tiles_ ? level_.exemplar.is_usable(u, v) : level_.holds(u, v); }
+  bool is_fixed(int64_t i) const {
+    const int width = field_.size.width;
+    return level_.is_fixed(int(i % width), int(i / width));
+  }
+
+  /// Of several random orders the one whose joints meet those of the band before least.
+  std::vector<ShownSpan> pieces_of(const ShownSpan& band, size_t number, const std::vector<ShownSpan>& before) const {
+    constexpr int tries = 8;
+    std::vector<ShownSpan> best;
+    double least = 0;
+    for (int i = 0; i < tries; i++) {
+      SpanOrder order(courses_.pieces[size_t(band.number)], along_, more_random_bits(bits_, number, i));
+      if (level_.fixed.any()) keep(order, band);
+      std::vector<ShownSpan> pieces = order.order();
+      const double met = meeting(pieces, before, (band.end - band.begin) / 2);
+      if (i == 0 || met < least) best = std::move(pieces);
+      least = i == 0 ? met : std::min(least, met);
+      if (least == 0) break;
+    }
+    return best;
+  }
+
+  void keep(SpanOrder& order, const ShownSpan& band) const {
+    const ShownSpan all{0, double(along_.result), 0, {}, 0};
+    for_pixels(band, all, [&](int64_t i, int along, int) {
+      if (!is_fixed(i)) return;
+      const ExemplarPixel& p = field_.pixels[size_t(i)];
+      const int across = courses_.upright ? p.x : p.y;
+      const auto shows = [&](int v) { return v >= band.shown.from && v < band.shown.to; };
+      if (shows(across) || shows(across + across_.exemplar)) order.keep(along, courses_.upright ? p.y : p.x);
+    });
+  }
+
+  /// How many joints meet, those less than `reach` apart in part.
+  double meeting(const std::vector<ShownSpan>& a, const std::vector<ShownSpan>& b, double reach) const {
+    double sum = 0;
+    for (const ShownSpan& p : a)
+      for (const ShownSpan& q : b) {
+        const double d = std::abs(p.begin - q.begin), apart = along_.closed ? std::min(d, along_.result - d) : d;
+        sum += std::max(0.0, 1 - apart / reach);
+      }
+    return sum;
+  }
+
+  void show(const ShownSpan& band, std::vector<ShownSpan>& pieces) {
+    for (ShownSpan& piece : pieces) {
+      if (piece.is_cut()) piece.cut = best_cut(band, piece);
+      for_pixels(band, piece, [&](int64_t i, int along, int across) {
+        int u = along + piece.shift(along), v = across + band.shift(across);
+        if (courses_.upright) std::swap(u, v);
+        level_.exemplar.unwind(u, v);
+        if (!is_fixed(i) && holds(u, v)) field_.pixels[size_t(i)] = {uint16_t(u), uint16_t(v)};
+      });
+    }
+  }
+
+  /// Where in its middle half the two parts of a piece meet in what looks most alike.
+  double best_cut(const ShownSpan& band, const ShownSpan& piece) const {
+    const double length = piece.end - piece.begin;
+    double best = piece.cut;
+    int64_t least = std::numeric_limits<int64_t>::max();
+    for (double cut = std::floor(piece.begin + length / 4); cut < piece.end - length / 4; cut++) {
+      const int before = int(cut + piece.shown.from - piece.begin), after = int(cut + piece.shown.to - piece.end);
+      int64_t unlike = 0;
+      for (int v = int(band.shown.from); v < int(band.shown.to); v++)
+        unlike += squared_distance(look(before, v), look(after, v));
+      if (unlike < least) best = cut;
+      least = std::min(least, unlike);
+    }
+    return best;
+  }
+
+  const AppearanceVector& look(int along, int across) const {
+    const auto [x, y] = courses_.upright ? std::pair(across, along) : std::pair(along, across);
+    const Size size = looks_.size;
+    return looks_.vectors[size_t(wrap(y, size.height)) * size_t(size.width) + size_t(wrap(x, size.width))];
+  }
+
+  Field& field_;
+  const CorrectionLevel& level_;
+  const AppearanceLevel& looks_;
+  const ElementCourses& courses_;
+  uint64_t bits_;
+  bool tiles_;
+  SpanLine along_, across_;
+};
+
+}  // namespace
+
+std::vector<ShownSpan> bands_of(const ElementCourses& courses, Size exemplar, const Plane& result,
+                                const ExistingPixels& kept, uint64_t bits) {
+  if (courses.empty()) return {};
+  const Size size = result.size;
+  const SpanLine across = courses.upright ? SpanLine{exemplar.width, size.width, result.tile_x}
+                                          : SpanLine{exemplar.height, size.height, result.tile_y};
+  SpanOrder order(courses.bands, across, bits);
+  const bool some_stay = std::ranges::find(kept.keep, Keep::always) != kept.keep.end();
+  for (size_t i = 0; i < kept.keep.size(); i++) {
+    if (kept.keep[i] != (some_stay ? Keep::always : Keep::at_first)) continue;
+    const int x = int(i % size_t(size.width)), y = int(i / size_t(size.width));
+    order.keep(courses.upright ? x : y, courses.upright ? kept.pixels[i].x : kept.pixels[i].y);
+  }
+  return order.order();
+}
+
+void lay_bands(Field& field, const CorrectionLevel& level, const Appearance& appearance, const ElementCourses& courses,
+               const std::vector<ShownSpan>& bands, uint64_t bits, const Task& task) {
+  BandLayout(field, level, appearance, courses, bits).lay(bands, task);
+}
+
+}  // namespace terrazzo
