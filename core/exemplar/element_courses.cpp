@@ -114,6 +114,11 @@ Lattice ElementCourses::lattice(Size exemplar) const {
   return {1, step, {}, 1};
 }
 
+bool joints_cross(const Elements& elements) {
+  const JointMap joints(elements, true);
+  return !beds_of(joints, true, true).empty() && !beds_of(joints, false, true).empty();
+}
+
 ElementCourses element_courses(const Elements& elements, bool tiles) {
   const JointMap joints(elements, tiles);
   const std::vector<double> rows = beds_of(joints, true, tiles), columns = beds_of(joints, false, tiles);

@@ -27,4 +27,7 @@ struct ElementCourses {
 /// together. Thread-safe.
 ElementCourses element_courses(const Elements& elements, bool tiles);
 
+/// Whether joints go all along an exemplar that tiles both ways: panels of all sizes in a frame. Thread-safe.
+bool joints_cross(const Elements& elements);
+
 }  // namespace terrazzo

@@ -167,7 +167,7 @@ NodeType regularity_node() {
        .choices = {"auto", "manual", "off"}},
       {.name = "least_certainty",
        .type = ParamType::number,
-       .fallback = 0.08,
+       .fallback = least_lattice_certainty,
        .help = "Lattices found with less certainty are not used. Higher accepts fewer. If the exemplar holds at most "
                "six cells, 0.6 is needed.",
        .min = 0,

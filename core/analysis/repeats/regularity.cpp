@@ -249,8 +249,12 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
   const ElementsPtr elements = find_elements(features, task);
   if (!elements || elements->certainty < sure_elements) return found;
   FoundLattice out = found;
-  if (!are_in_step(*elements, l, true))
-    if (const Lattice of_few = lattice_of_few(*elements, l); of_few.rank > 0) out.lattice = of_few;
+  if (!are_in_step(*elements, l, true)) {
+    if (const Lattice of_few = lattice_of_few(*elements, l); of_few.rank > 0)
+      out.lattice = of_few;
+    else if (l.rank < 2 && joints_cross(*elements))
+      out.lattice = {2, {double(size.width), 0}, {0, double(size.height)}, 1};
+  }
   if (out.lattice.is_single_cell(size)) out.courses = int(element_courses(*elements, true).bands.size());
   return out;
 }

@@ -7,6 +7,9 @@
 
 namespace terrazzo {
 
+/// From which on a lattice counts, if nothing else is said.
+inline constexpr double least_lattice_certainty = 0.08;
+
 struct FoundLattice {
   Lattice lattice;
   /// Joints cross, but the exemplar holds too few cells to find the lattice.

@@ -314,10 +314,14 @@ bool neighbours_are_alike(const SeenMap& map, bool rows) {
   return neighbours <= wrap_detection_tuning->most_alike * any_two;
 }
 
+FeaturesPtr features_of(const Material& material, bool wraps, const ImagePtr& mask) {
+  return weighted_features(material, weights_of_chosen(material, {}), wraps, mask);
+}
+
 /// Whether the exemplar's cells, found without regard to its borders, come out uneven around it: an odd number of
 /// chequered tiles has borders that go on smoothly, and yet like meets like there.
 bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task) {
-  const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false, mask);
+  const FeaturesPtr features = features_of(material, false, mask);
   if (!may_have_lattice(*features, wrap_detection_tuning->least_certainty, task)) return false;
   const Lattice lattice = find_lattice(*features, wrap_detection_tuning->least_certainty, task).lattice;
   const Size size = material.size();
@@ -328,8 +332,17 @@ bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task
 /// Whether few tiles, parted as if the exemplar tiled, lie in cells around its borders: joints that those cut in halves
 /// fit nothing inside.
 bool few_cells_tell(const Material& material, const ImagePtr& mask, const Task& task) {
-  const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), true, mask);
-  return told_by_few_elements(*features, {}, task).lattice.rank == 2;
+  const Lattice of_few = told_by_few_elements(*features_of(material, true, mask), {}, task).lattice;
+  return of_few.rank == 2 && !of_few.is_single_cell(material.size());
+}
+
+/// Whether joints cross and, if the exemplar tiled, all of it would be one cell: panels in a frame, whose sides may
+/// differ as they like.
+bool is_framed_panel(const Material& material, const ImagePtr& mask, const Task& task) {
+  const auto found = [&](bool wraps) {
+    return find_lattice(*features_of(material, wraps, mask), least_lattice_certainty, task);
+  };
+  return found(false).too_few && found(true).lattice.is_single_cell(material.size());
 }
 
 }  // namespace
@@ -348,13 +361,14 @@ bool seems_to_tile(const Material& material, const Task& task, const ImagePtr& m
   const std::vector<SeenMap> maps = seen_maps(material, mask, 2 * wrap_detection_tuning->window, task);
   if (maps.empty()) return false;
   const Borders borders(maps, task);
-  if (!steps_fit(borders)) return false;
+  const bool fit = steps_fit(borders);
   // A joint that recurs lies exactly where cells begin, which a lattice found without the borders does not tell.
-  if (windows_fit(borders, task) &&
+  if (fit && windows_fit(borders, task) &&
       (!cells_deny(material, mask, task) || (borders.joint_recurs(true) && borders.joint_recurs(false))))
     return true;
-  return borders.have_joint() && borders.may_part_tiles(true) && borders.may_part_tiles(false) &&
-         few_cells_tell(material, mask, task);
+  return borders.sees_enough() && borders.have_joint() && borders.may_part_tiles(true) &&
+         borders.may_part_tiles(false) &&
+         ((fit && few_cells_tell(material, mask, task)) || is_framed_panel(material, mask, task));
 }
 
 }  // namespace terrazzo

@@ -160,6 +160,22 @@ TEST_CASE("panels in a single row tile, though their bevels meet nowhere but alo
   CHECK_FALSE(seems_to_tile(*panels(20), Task()));
 }
 
+TEST_CASE("a panel in a frame tiles, though all sides of the frame differ; a part of it does not") {
+  const auto panel = [](int left) {
+    return Material::of(make_image({160 - left, 160}, 1, [left](int i, int y, int) {
+      const int x = i + left;
+      const float grain = 0.1f * float(unit_double(random_bits(4, x, y)));
+      if (y < 14) return 0.3f + grain;
+      if (y >= 144) return 0.05f + grain;
+      if (x < 10) return 0.2f + grain;
+      if (x >= 148) return 0.f + grain;
+      return (std::abs(y - 80) < 2 ? 0.1f : 0.8f) + grain;
+    }));
+  };
+  CHECK(seems_to_tile(*panel(0), Task()));
+  CHECK_FALSE(seems_to_tile(*panel(40), Task()));
+}
+
 TEST_CASE("two by two chequered tiles tile, though they touch more softly inside than across the border") {
   const auto floor = [](int left) {
     return Material::of(make_image({96 - left, 96}, 1, [left](int x, int y, int) {
