@@ -73,23 +73,37 @@ struct Grid {
 };
 
 struct Extent {
-  int first_x = -1, first_y = 0;  ///< its first block: others count from there around the borders
+  std::vector<uint8_t> columns, rows;  ///< that it has blocks in
+  int first_x = 0, first_y = 0;        ///< others count from there around the borders
   int left = 0, right = 0, top = 0, bottom = 0;
   double sum_x = 0, sum_y = 0;
 };
 
+/// After the longest run of lines around the borders without blocks of an element.
+int first_of(const std::vector<uint8_t>& lines) {
+  const int n = int(lines.size());
+  int first = 0, longest = 0, run = 0;
+  for (int i = 0; i < 2 * n; i++) {
+    if (lines[size_t(i % n)] && run > longest) {
+      longest = run;
+      first = i % n;
+    }
+    run = lines[size_t(i % n)] ? 0 : run + 1;
+  }
+  return first;
+}
+
 void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
-  if (e.first_x < 0) e = {x, y, x, x, y, y};
-  const int u = grid.plane.tile_x ? e.first_x - nearest_to_zero(e.first_x - x, grid.plane.size.width) : x;
-  const int v = grid.plane.tile_x ? e.first_y - nearest_to_zero(e.first_y - y, grid.plane.size.height) : y;
+  const Size& size = grid.plane.size;
+  const int u = e.first_x + wrap(x - e.first_x, size.width), v = e.first_y + wrap(y - e.first_y, size.height);
+  if (shape.area++ == 0) e.left = e.right = u, e.top = e.bottom = v;
   e.left = std::min(e.left, u);
   e.right = std::max(e.right, u);
   e.top = std::min(e.top, v);
   e.bottom = std::max(e.bottom, v);
   e.sum_x += u;
   e.sum_y += v;
-  shape.area++;
-  const bool at_border = x == 0 || y == 0 || x == grid.plane.size.width - 1 || y == grid.plane.size.height - 1;
+  const bool at_border = x == 0 || y == 0 || x == size.width - 1 || y == size.height - 1;
   shape.cut |= !grid.plane.tile_x && at_border;
 }
 
@@ -185,14 +199,23 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   ElementShapes out{.block = block, .all = std::vector<ElementShape>(size_t(elements.count))};
   const Size size{(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block};
   Grid grid{{size, wraps, wraps}, {}};
-  std::vector<Extent> extents(out.all.size());
+  const std::vector<uint8_t> no_columns(size_t(size.width), 0), no_rows(size_t(size.height), 0);
+  std::vector<Extent> extents(out.all.size(), {.columns = no_columns, .rows = no_rows});
+  const auto pixel_at = [&](int x, int y) {
+    return size_t(y) * size_t(block) * size_t(elements.size.width) + size_t(x) * size_t(block);
+  };
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
-      const size_t pixel = size_t(y) * size_t(block) * size_t(elements.size.width) + size_t(x) * size_t(block);
-      const uint16_t element = elements.at[pixel];
-      grid.at.push_back(element);
+      const uint16_t element = grid.at.emplace_back(elements.at[pixel_at(x, y)]);
+      extents[element].columns[size_t(x)] = extents[element].rows[size_t(y)] = 1;
+      if (!usable.empty() && !usable[pixel_at(x, y)]) out.all[element].unusable = true;
+    }
+  if (wraps)
+    for (Extent& e : extents) e.first_x = first_of(e.columns), e.first_y = first_of(e.rows);
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const uint16_t element = grid.at[size_t(y) * size_t(size.width) + size_t(x)];
       add_block(grid, x, y, extents[element], out.all[element]);
-      if (!usable.empty() && !usable[pixel]) out.all[element].unusable = true;
     }
   double squares = 0;
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);

@@ -75,5 +75,24 @@ TEST_CASE("where most of an exemplar lies in stones that its border cuts, those 
   CHECK(slivers.whole == 4);
   for (int e = 0; e < 12; e++) CHECK(slivers[e].unusable == (e / 4 != 1));
   // Of an exemplar that tiles, nothing is cut.
-  CHECK(element_shapes(stones(60, 10), {}, 1, true).whole == 8);
+  CHECK(element_shapes(stones(60, 10), {}, 1, true).whole == 12);
+}
+
+TEST_CASE("an element wider than half of an exemplar that tiles has its place, wherever the border runs through it") {
+  // Seven tenths as wide as the exemplar, with a narrow one beside it; a nose sticks out upwards in its middle.
+  for (const int moved : {0, 30, 50, 70}) {
+    CAPTURE(moved);
+    Elements e{{80, 80}, {}, 2, 1};
+    for (int y = 0; y < 80; y++)
+      for (int x = 0; x < 80; x++) {
+        const int u = wrap(x - moved, 80);
+        const bool nose = y < 10 && (u < 26 || u > 30);
+        e.at.push_back(u >= 56 || nose || y >= 70 ? 1 : 0);
+      }
+    const ElementShape wide = element_shapes(e, {}, 1, true)[0];
+    CHECK(!wide.unusable);
+    CHECK(wide.area == 60 * 56 + 5 * 10);
+    CHECK(wrap(wide.centre_x - moved, 80) == 28);
+    CHECK(wide.depth(0, 0) > 20);
+  }
 }
