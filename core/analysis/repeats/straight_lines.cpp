@@ -19,6 +19,7 @@ struct StraightLinesTuning {
   double least_parallel = 0.4;
   double same_lines = 0.7;
   double other_lines = 0.3;
+  double other_strong_lines = 0.5;
   double least_beside = 0.5;
   double least_missed = 0.05;
   double least_sharp = 0.02;
@@ -50,6 +51,10 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
         {&StraightLinesTuning::other_lines, "other_lines", "correlation",
          "up to which lines deny bands found otherwise. Higher: they deny more; lower: wrong bands stay",
          "What each rule decides"},
+        {&StraightLinesTuning::other_strong_lines, "other_strong_lines", "correlation",
+         "the same of lines that could part cells by themselves. Higher: results repeat larger parts; lower: panels of "
+         "which some are two cells wide are cut",
+         "regularity", 0, 1},
         {&StraightLinesTuning::least_beside, "least_beside", "of the share of lines as bands have",
          "that others across them must hold to part those into cells. Higher: panels over a rail are torn; lower: "
          "boards with few head joints are cells",
@@ -136,6 +141,12 @@ StraightLines straight_lines_of(const Planes& plane, bool rows) {
   return out;
 }
 
+/// The correlation up to which lines deny what was found otherwise.
+double most_unlike(const StraightLines& lines) {
+  return lines.share >= straight_lines_tuning->least_crossing ? straight_lines_tuning->other_strong_lines
+                                                              : straight_lines_tuning->other_lines;
+}
+
 /// Cells that come as often as lines do which finer ones miss: seams between plates with a fine pattern. Rank 0 if none
 /// are missed.
 Lattice with_missed_lines(const Lattice& found, const StraightLines& rows, const StraightLines& columns) {
@@ -143,7 +154,7 @@ Lattice with_missed_lines(const Lattice& found, const StraightLines& rows, const
   const auto misses = [](const StraightLines& lines, double step) {
     return step >= 1.5 * shortest_repeat() && step < lines.period &&
            lines.share >= straight_lines_tuning->least_missed &&
-           least_correlation(lines.profile, step) <= straight_lines_tuning->other_lines;
+           least_correlation(lines.profile, step) <= most_unlike(lines);
   };
   const double along = std::abs(found.along_bands(true).x()), across = std::abs(found.along_bands(false).y());
   const bool by_rows = misses(rows, across), by_columns = misses(columns, along);
@@ -167,8 +178,7 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
   const double bands = found.first.sum();
   const StraightLines& beside = found.first.x() == 0 ? columns : rows;
   const bool agree = found.rank == 1 && of_bands.recurs_after(bands);
-  const bool missed =
-      found.rank == 1 && !agree && least_correlation(of_bands.profile, bands) <= straight_lines_tuning->other_lines;
+  const bool missed = found.rank == 1 && !agree && least_correlation(of_bands.profile, bands) <= most_unlike(of_bands);
   const bool recur = agree && rows.count() > 1 && columns.count() > 1;
   const double least = straight_lines_tuning->least_crossing * (recur ? straight_lines_tuning->recurring : 1);
   const bool in_bands = agree && beside.share >= straight_lines_tuning->least_beside * of_bands.share;
@@ -186,9 +196,7 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
   if (lines.share < straight_lines_tuning->least_parallel) return {};
   // Bands found otherwise stay, unless lines deny them.
   const double period = courses ? found.first.y() : found.first.x();
-  if (found.rank == 1 &&
-      (period == 0 || correlation_around(lines.profile, period) > straight_lines_tuning->other_lines))
-    return {};
+  if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > most_unlike(lines))) return {};
   return {1, courses ? down : right, {}, lines.share};
 }
 

@@ -340,6 +340,21 @@ TEST_CASE("panels of many heights between posts are one cell, though their joint
   CHECK(lattice_of(f).is_single_cell({192, 192}));
 }
 
+TEST_CASE("panels in a row of which some are two wide come again as a whole") {
+  const auto row = [](bool wide) {
+    return plain_features(make_image({256, 128}, 1,
+                                     [=](int x, int y, int) {
+                                       const bool closed = wide && (x / 32 == 2 || x / 32 == 4 || x / 32 == 7);
+                                       const bool joint = x % 32 >= 30 && !closed;
+                                       const double noise = unit_double(random_bits(4, x, y));
+                                       return float((y < 12 ? 0.1 : joint ? 0.3 : 0.7) + 0.1 * noise);
+                                     }),
+                          true);
+  };
+  check_cell(lattice_of(row(false)), 32, 0, 0, 128);
+  CHECK(lattice_of(row(true)).is_single_cell({256, 128}));
+}
+
 TEST_CASE("joints that cross without a second tile to measure are told of, stones are not") {
   CHECK(find_lattice(*picture(squares, 170, 0.35, 0.45, 3), 0.08, Task()).too_few);
   CHECK(!find_lattice(*picture(squares, 40, 0.35, 0.45, 3), 0.08, Task()).too_few);
