@@ -47,7 +47,7 @@ OutputForecasts infer_guidance(const Params& params, const InputForecasts& input
 NodeType guidance_node() {
   NodeType t;
   t.name = "guidance";
-  t.version = 9;
+  t.version = 10;
   t.category = "analysis";
   t.summary = "Extracts edges and the signed feature distance from a material's maps";
   t.help =
