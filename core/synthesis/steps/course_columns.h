@@ -65,8 +65,7 @@ struct CandidateCourse {
 };
 
 struct CourseFit {
-  int step = 1;      ///< columns of the exemplar to one of the result
-  int shortest = 1;  ///< the minimum length of runs in columns of the result, except at its borders
+  int step = 1;  ///< columns of the exemplar to one of the result
   /// A run that goes back in the course of the one before goes back by at least so many columns of the exemplar, or by
   /// half of a course that is closed.
   int least_step_back = 0;

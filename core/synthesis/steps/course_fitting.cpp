@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <optional>
 #include <utility>
 
 #include "core/synthesis/steps/course_labels.h"
@@ -45,21 +44,7 @@ class CheapestEnds {
   std::array<Cheapest, 2 * farthest + 1> by_part_;
 };
 
-/// Values per label or cut for the last few columns of the result.
-template <class T>
-class Recent {
- public:
-  Recent(int columns, size_t values, T value) : values_(size_t(columns), std::vector<T>(values, value)) {}
-  std::vector<T>& at(int x) { return values_[size_t(x) % values_.size()]; }
-  const std::vector<T>& at(int x) const { return values_[size_t(x) % values_.size()]; }
-
- private:
-  std::vector<std::vector<T>> values_;
-};
-
-/// Finds the cheapest path through the result, from its first column to its last. A run is short until it reaches the
-/// minimum length, and complete from then on: only complete runs may end, but for the result's borders. As the minimum
-/// length is the same for all, short runs need no states of their own: what they cost is a difference of sums.
+/// Finds the cheapest path through the result, from its first column to its last.
 class PathSearch {
  public:
   /// `shown` begins with the result's column `origin`, and columns count from there. `first`: the cut at which the path
@@ -76,67 +61,40 @@ class PathSearch {
         changes_(shown.size() + 1),
         price_(size_t(labels.count()), 0),
         column_cost_(size_t(labels.count()), 0),
-        complete_(size_t(labels.count()), impossible),
-        sums_(fit.shortest + 1, size_t(labels.count()), 0),
-        start_cost_(fit.shortest + 1, cut_count_, impossible),
-        previous_cut_(shown.size() * cut_count_, no_cut),
-        completes_(shown.size() * cut_count_, 0) {
+        cost_(size_t(labels.count()), impossible),
+        start_cost_(cut_count_, impossible),
+        previous_cut_(shown.size() * cut_count_, no_cut) {
     for (const ColumnPrice& p : prices.columns) {
       if (p.end <= 0 || p.begin >= length()) continue;
       const auto label = size_t(labels.begin(p.course) + p.column);
       changes_[size_t(std::max(0, p.begin))].push_back({label, p.price});
       changes_[size_t(std::min(length(), p.end))].push_back({label, -p.price});
     }
-    std::vector<int32_t> next(complete_.size());
+    std::vector<int32_t> next(cost_.size());
     for (int x = 0; x < length(); x++) {
       for (const auto& [label, by] : changes_[size_t(x)]) price_[label] += by;
       start_runs(x);
       for (int c = 0; c < labels.courses(); c++) extend_runs(x, c, next);
-      complete_.swap(next);
+      cost_.swap(next);
     }
   }
 
   /// Ascending; empty if there is no path.
   std::vector<CourseRun> runs() const {
     std::vector<CourseRun> out;
-    const std::optional<End> end = cheapest_end();
-    if (!end) return out;
-    int x = length() - 1, label = end->label;
-    CutIndex began = end->short_since;
-    int began_at = x - end->short_columns + 1;
-    for (;;) {
-      if (began == no_cut) {
-        const CutIndex k = labels_.completed_from[size_t(label)];
-        if (k != no_cut && completes_[size_t(x) * cut_count_ + k]) {
-          began = k;
-          began_at = x - fit_.shortest + 1;
-        } else if (x == 0) {
-          out.push_back(labels_.run(0, label));
-          break;
-        } else {
-          x--;
-          label = previous(labels_.course_of(label), label);
-          continue;
-        }
-      }
-      out.push_back(labels_.run(began_at, labels_.cuts[began].label));
-      const CutIndex from = began_at > 0 ? previous_cut_[size_t(began_at) * cut_count_ + began] : no_cut;
-      if (from == no_cut) break;
-      x = began_at - 1;
-      label = last_before(labels_.cuts[from]);
-      began = no_cut;
+    int label = cheapest_end();
+    for (int x = length() - 1; label >= 0; x--) {
+      const CutIndex k = labels_.cut_at[size_t(label)];
+      const CutIndex from = k == no_cut ? no_cut : previous_cut_[size_t(x) * cut_count_ + k];
+      if (x == 0 || from != no_cut) out.push_back(labels_.run(x, label));
+      if (x == 0) break;
+      label = from != no_cut ? last_before(labels_.cuts[from]) : previous(labels_.course_of(label), label);
     }
     std::ranges::reverse(out);
     return out;
   }
 
  private:
-  struct End {
-    int label = 0;
-    CutIndex short_since = no_cut;  // the cut at which a run began that the result's border cuts short,
-    int short_columns = 0;          // and its columns
-  };
-
   int length() const { return int(shown_.size()); }
   /// The label that one goes on from, and the last one of a run that ends before a cut; -1: none.
   int previous(int course, int label) const { return labels_.before(course, label, fit_.step); }
@@ -156,66 +114,41 @@ class PathSearch {
     }
   }
 
-  /// The cost of the cheapest path to each label of a course in column x, in a complete run.
+  /// The cost of the cheapest path to each label of a course in column x.
   void extend_runs(int x, int course, std::vector<int32_t>& next) {
     price_columns(x, course);
     const int begin = labels_.begin(course), end = labels_.end(course), step = fit_.step;
-    int64_t* sum = sums_.at(x).data();
-    const int64_t* sum_before = x > 0 ? sums_.at(x - 1).data() : nullptr;
-    const int first_after = x > 0 ? std::min(end, begin + step) : end;
-    const auto go_on = [&](int l, int from) {
-      const int32_t cost = complete_[size_t(from)];
-      sum[l] = sum_before[from] + column_cost_[size_t(l)];
+    const auto go_on = [&](int l, int32_t cost) {
       next[size_t(l)] = cost < impossible ? cost + column_cost_[size_t(l)] : impossible;
     };
+    const int first_after = x > 0 ? std::min(end, begin + step) : end;
     for (int l = begin; l < first_after; l++) {
-      if (const int from = x > 0 ? previous(course, l) : -1; from >= 0) {
-        go_on(l, from);
-        continue;
-      }
-      sum[l] = column_cost_[size_t(l)];
-      next[size_t(l)] = x == 0 && first_ == no_cut && in_phase(x, course, l) ? column_cost_[size_t(l)] : impossible;
+      const int from = x > 0 ? previous(course, l) : -1;
+      const bool begins = x == 0 && first_ == no_cut && in_phase(x, course, l);
+      go_on(l, from >= 0 ? cost_[size_t(from)] : begins ? 0 : impossible);
     }
-    for (int l = first_after; l < end; l++) go_on(l, l - step);
-    if (x >= fit_.shortest - 1) complete_runs(x, course, next);
-  }
-
-  /// Adds the runs that reach the minimum length in column x.
-  void complete_runs(int x, int course, std::vector<int32_t>& next) {
+    for (int l = first_after; l < end; l++) go_on(l, cost_[size_t(l - step)]);
     for (int k = labels_.cuts_begin(course); k < labels_.cuts_end(course); k++) {
-      const int label = labels_.after(labels_.cuts[size_t(k)], (fit_.shortest - 1) * fit_.step);
-      if (label < 0) continue;
-      const int64_t cost = short_cost(x, CutIndex(k), fit_.shortest);
-      if (cost >= next[size_t(label)]) continue;
-      next[size_t(label)] = int32_t(cost);
-      completes_[size_t(x) * cut_count_ + size_t(k)] = 1;
+      const int label = labels_.cuts[size_t(k)].label;
+      const int32_t start = start_cost_[size_t(k)];
+      if (start < impossible && start + column_cost_[size_t(label)] < next[size_t(label)])
+        next[size_t(label)] = start + column_cost_[size_t(label)];
+      else
+        previous_cut_[size_t(x) * cut_count_ + size_t(k)] = no_cut;
     }
   }
-
-  /// The cost of a path whose last run began at a cut and has shown `columns` columns, up to x.
-  int64_t short_cost(int x, CutIndex k, int columns) const {
-    const int32_t start = start_cost_.at(x - columns + 1)[k];
-    if (start >= impossible) return impossible;
-    const CourseLabels::Cut& cut = labels_.cuts[k];
-    const int from = x >= columns ? last_before(cut) : -1;
-    return start + sums_.at(x)[size_t(labels_.after(cut, (columns - 1) * fit_.step))] -
-           (from >= 0 ? sums_.at(x - columns)[size_t(from)] : 0);
-  }
-
   /// The cost of a path whose last run ends before a cut, and of that cut.
   int32_t end_cost(size_t k) const {
     const CourseLabels::Cut& cut = labels_.cuts[k];
     const int last = last_before(cut);
-    const bool possible = last >= 0 && complete_[size_t(last)] < impossible;
-    return possible ? complete_[size_t(last)] + cut.cost : impossible;
+    const bool possible = last >= 0 && cost_[size_t(last)] < impossible;
+    return possible ? cost_[size_t(last)] + cut.cost : impossible;
   }
 
   /// Starts runs in column x: in another course, or forward or far back in the course of the run before.
   void start_runs(int x) {
-    std::vector<int32_t>& start = start_cost_.at(x);
     if (x == 0) {
-      std::ranges::fill(start, impossible);
-      if (first_ != no_cut) start[first_] = labels_.cuts[first_].cost;
+      if (first_ != no_cut) start_cost_[first_] = labels_.cuts[first_].cost;
       return;
     }
     std::vector<int32_t> ends(cut_count_);
@@ -271,7 +204,7 @@ class PathSearch {
       const Cheapest& c = from[size_t(k - begin)];
       const CourseLabels::Cut& cut = labels_.cuts[size_t(k)];
       const bool begins = c.cost < impossible && cut.label < labels_.end(course) && in_phase(x, course, cut.label);
-      start_cost_.at(x)[size_t(k)] = begins ? c.cost + cut.cost + price : impossible;
+      start_cost_[size_t(k)] = begins ? c.cost + cut.cost + price : impossible;
       previous_cut_[size_t(x) * cut_count_ + size_t(k)] = c.cut;
     }
   }
@@ -293,30 +226,22 @@ class PathSearch {
     return a.label < b.label && (!labels_.closed(a.course) || goes_back(from, to, labels_.length(a.course)));
   }
 
-  std::optional<End> cheapest_end() const {
-    std::optional<End> out;
+  /// The label with which the cheapest path ends; -1 if there is none.
+  int cheapest_end() const {
+    int out = -1;
     int64_t least = impossible;
-    const auto consider = [&](int64_t cost, const End& end) {
+    const auto consider = [&](int64_t cost, int label) {
       if (cost >= least) return;
       least = cost;
-      out = end;
+      out = label;
     };
-    if (first_ != no_cut) {
-      const CourseLabels::Cut& first = labels_.cuts[first_];
-      for (size_t k = 0; k < cut_count_; k++) {
+    if (first_ == no_cut)
+      for (int l = 0; l < labels_.count(); l++) consider(cost_[size_t(l)], l);
+    for (size_t k = 0; first_ != no_cut && k < cut_count_; k++)
+      if (may_follow(int(k), first_)) {
         const CourseLabels::Cut& cut = labels_.cuts[k];
-        if (may_follow(int(k), first_))
-          consider(end_cost(k) + int64_t{fit_.per_gap} * std::abs(cut.joint_offset - first.joint_offset),
-                   {last_before(cut)});
-      }
-      return out;
-    }
-    for (int l = 0; l < labels_.count(); l++) consider(complete_[size_t(l)], {l});
-    for (int columns = 1; columns < std::min(fit_.shortest, length()); columns++)
-      for (size_t k = 0; k < cut_count_; k++) {
-        const CourseLabels::Cut& cut = labels_.cuts[k];
-        if (const int label = labels_.after(cut, (columns - 1) * fit_.step); label >= 0)
-          consider(short_cost(length() - 1, CutIndex(k), columns), {label, CutIndex(k), columns});
+        const int gap = std::abs(cut.joint_offset - labels_.cuts[first_].joint_offset);
+        consider(end_cost(k) + int64_t{fit_.per_gap} * gap, last_before(cut));
       }
     return out;
   }
@@ -331,11 +256,9 @@ class PathSearch {
   std::vector<std::vector<std::pair<size_t, int32_t>>> changes_;  // of prices, in each column of the result
   std::vector<int32_t> price_;                                    // of each label, in the column at hand
   std::vector<int32_t> column_cost_;                              // of showing each label there
-  std::vector<int32_t> complete_;       // the cost of the cheapest path to each label in a complete run
-  Recent<int64_t> sums_;                // of column costs along labels that continue one another
-  Recent<int32_t> start_cost_;          // the cost of the cheapest path that starts a run at each cut
-  std::vector<CutIndex> previous_cut_;  // of each column and cut, at which a run starts: the one before it
-  std::vector<uint8_t> completes_;      // of each column and cut: whether its run is the cheapest once it is complete
+  std::vector<int32_t> cost_;                                     // of the cheapest path to each label
+  std::vector<int32_t> start_cost_;                               // the same to each cut at which a run may begin
+  std::vector<CutIndex> previous_cut_;  // of each column and cut: the one before it; no_cut: no run begins there
 };
 
 /// Runs of a result that wraps. In a path twice around, a cut in the middle does not depend on the ends. A second path
@@ -391,7 +314,7 @@ std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& 
 std::vector<CourseRun> fitting_runs(const std::vector<ColumnDescriptor>& shown,
                                     const std::vector<CandidateCourse>& courses, const CourseCosts& prices,
                                     const CourseFit& fit) {
-  const CourseLabels labels(courses, fit);
+  const CourseLabels labels(courses);
   return fit.closed ? runs_around(labels, fit, shown, prices)
                     : PathSearch(labels, fit, shown, prices, 0, no_cut).runs();
 }

@@ -25,7 +25,7 @@ class CourseLabels {
   };
 
   /// Borrows the courses.
-  CourseLabels(const std::vector<CandidateCourse>& courses, const CourseFit& fit) : courses_(courses) {
+  explicit CourseLabels(const std::vector<CandidateCourse>& courses) : courses_(courses) {
     for (size_t c = 0; c < courses.size(); c++) {
       columns_begin_.push_back(count_);
       cuts_begin_.push_back(int(cuts.size()));
@@ -36,10 +36,9 @@ class CourseLabels {
     if (cuts.size() > most_cuts) throw std::length_error("more cuts than can be numbered");
     columns_begin_.push_back(count_);
     cuts_begin_.push_back(int(cuts.size()));
-    completed_from.assign(size_t(count_), no_cut);
+    cut_at.assign(size_t(count_), no_cut);
     for (size_t k = 0; k < cuts.size(); k++)
-      if (const int label = after(cuts[k], (fit.shortest - 1) * fit.step); label >= 0)
-        completed_from[size_t(label)] = CutIndex(k);
+      if (cuts[k].label < end(cuts[k].course)) cut_at[size_t(cuts[k].label)] = CutIndex(k);
   }
 
   int count() const { return count_; }
@@ -51,14 +50,10 @@ class CourseLabels {
   int cuts_end(int course) const { return cuts_begin_[size_t(course) + 1]; }
   int length(int course) const { return end(course) - begin(course); }
   bool closed(int course) const { return courses_[size_t(course)].columns->closed; }
-  /// So many columns before a label of a course, or after a cut: -1 if the course does not reach so far.
+  /// So many columns before a label of a course; -1 if the course does not reach so far.
   int before(int course, int label, int columns) const {
     if (label - columns >= begin(course)) return label - columns;
     return closed(course) ? end(course) - 1 - (begin(course) - 1 - label + columns) % length(course) : -1;
-  }
-  int after(const Cut& cut, int columns) const {
-    if (cut.label + columns < end(cut.course)) return cut.label + columns;
-    return closed(cut.course) ? begin(cut.course) + (cut.label - begin(cut.course) + columns) % length(cut.course) : -1;
   }
   int course_of(int label) const {
     return int(std::ranges::upper_bound(columns_begin_, label) - columns_begin_.begin()) - 1;
@@ -70,8 +65,7 @@ class CourseLabels {
   }
 
   std::vector<Cut> cuts;
-  /// Of each label: the cut at which a run begins that reaches the minimum length there; no_cut if there is none.
-  std::vector<CutIndex> completed_from;
+  std::vector<CutIndex> cut_at;  ///< of each label; no_cut if there is none
 
  private:
   const std::vector<CandidateCourse>& courses_;

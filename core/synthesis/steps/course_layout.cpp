@@ -18,7 +18,6 @@ namespace {
 
 struct CourseLayoutTuning {
   double most_difference = 4;
-  double shortest_run = 0.9;
   double least_step_back = 6;
   double gap = 2;
   double most_staying = 0.25;
@@ -32,9 +31,6 @@ const Tunable<CourseLayoutTuning> course_layout_tuning(
          "the limit of what a column may cost by its look. Higher: single features count fully; lower: they do not "
          "outweigh the rest of a brick",
          "What each rule decides", 0, 1000},
-        {&CourseLayoutTuning::shortest_run, "shortest_run", "course heights",
-         "higher: only long bricks are taken from the exemplar; lower: slivers are, too", "What each rule decides", 0,
-         1000},
         {&CourseLayoutTuning::least_step_back, "least_step_back", "course heights",
          "how far a course must go back in the exemplar to show it again. Higher: fewer repeats side by side; lower: "
          "short exemplars offer more",
@@ -73,7 +69,6 @@ class CourseLayout {
         prices_(result_, coursing, columns_, height_) {
     const int step = result_.step();
     fit_.step = step;
-    fit_.shortest = std::max(1, int(course_layout_tuning->shortest_run * height_ / step));
     fit_.least_step_back = int(course_layout_tuning->least_step_back * height_);
     fit_.per_difference = cost_per_difference(columns_, coursing);
     fit_.most_difference = int32_t(course_layout_tuning->most_difference * cost_unit);

@@ -52,7 +52,7 @@ std::string text(const std::vector<CourseRun>& runs) {
   return out;
 }
 
-const CourseFit fit{.step = 1, .shortest = 4, .least_step_back = 12, .per_difference = 0.01, .most_difference = 1000};
+const CourseFit fit{.step = 1, .least_step_back = 12, .per_difference = 0.01, .most_difference = 1000};
 
 }  // namespace
 
@@ -198,7 +198,6 @@ TEST_CASE("a course that is closed goes on around the exemplar's border at no co
     a.closed = true;
     CourseFit around = fit;
     around.step = step;
-    around.shortest = step == 1 ? 4 : 1;
     std::vector<int> shown;
     for (int x = 0; x < 60 / step; x++) shown.push_back((15 + x * step) % 24 / brick + 1);
     const auto runs = fitting_runs(looks(shown), {{&a}}, {}, around);
