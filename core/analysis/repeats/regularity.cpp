@@ -146,17 +146,6 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
-/// Of chequered tiles those are alike that are a step along and a step down, and neighbours are not. Of two by two, no
-/// others tell.
-Lattice chequered_if_told(const Correlation& values, const Lattice& tiles) {
-  if (tiles.rank != 2) return tiles;
-  const Vector2d diagonal = tiles.first + tiles.second;
-  if (!values.covers(diagonal.x(), diagonal.y())) return tiles;
-  const double neighbours = std::max(values.at(tiles.first), values.at(tiles.second));
-  if (neighbours >= 0 || values.at(diagonal) - neighbours < regularity_tuning->least_alike_of_few) return tiles;
-  return {2, 2 * tiles.first, diagonal, tiles.certainty};
-}
-
 /// The highest correlation of all lags of so many pixels and more, up to half the exemplar's sides: parts of it that
 /// were shown twice to make it tile lie farther apart.
 double highest_from(const Correlation& r, int least_lag) {
@@ -207,7 +196,6 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
-  best = chequered_if_told(of_values, best);
   if (best.rank < 2 && views.size() == 1)
     if (const Lattice bands = lattice_of_single_bands(largest, edges.front(), best, task); bands.rank > 0) best = bands;
   if (best.rank == 1)
