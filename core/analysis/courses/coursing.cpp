@@ -17,7 +17,6 @@ namespace {
 
 struct CoursingTuning {
   double smallest_period = 14;
-  double largest_period = 96;
   double separability_of_bricks = 1.1;
   double separability_of_boards = 0.7;
   double most_aligned = 0.3;
@@ -37,9 +36,6 @@ const Tunable<CoursingTuning> coursing_tuning(
         {&CoursingTuning::smallest_period, "smallest_period", "pixels",
          "higher: fine walls are left to seams; lower: courses whose joints are lost are laid",
          "not measured: finer joints are lost", 4},
-        {&CoursingTuning::largest_period, "largest_period", "pixels",
-         "more is looked at where pixels are larger. Higher: joints are placed more exactly; costs time",
-         "not measured: bounds the time"},
         {&CoursingTuning::separability_of_bricks, "separability_of_bricks", "deviations",
          "of joints like bed joints, between them and bricks. Higher: fewer walls are laid; lower: plaster is cut into "
          "stripes",
@@ -85,6 +81,8 @@ const Tunable<CoursingTuning> coursing_tuning(
          "of each kind. Higher: less is laid; lower: one course comes all over",
          "not measured: the demands were measured together, not one by one", 1},
     });
+
+constexpr double largest_period = 96;  // pixels; more is looked at where pixels are larger, which bounds the time
 
 /// How far joints across and what is between them lie apart at least, in deviations, and how many go on in the course
 /// below at most.
@@ -276,7 +274,7 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   const Lattice bands = lattice.level_bands(!out.axes.upright);
   if (bands.rank == 0) return {};
   out.period = std::abs(out.axes.upright ? bands.first.x() : bands.first.y());
-  while (out.period > coursing_tuning->largest_period && out.level + 1 < int(appearance.levels().size())) {
+  while (out.period > largest_period && out.level + 1 < int(appearance.levels().size())) {
     out.period /= 2;
     out.level++;
   }

@@ -25,7 +25,6 @@ struct HeadJointsTuning {
   double outstanding_deviations = 4;
   double margin_of_joint = 1.6;
   double margin = 0.12;
-  int most_samples = 1 << 17;
   int unlike_sections = 1;
 };
 const Tunable<HeadJointsTuning> head_joints_tuning(
@@ -55,13 +54,13 @@ const Tunable<HeadJointsTuning> head_joints_tuning(
         {&HeadJointsTuning::margin, "margin", "share of a course",
          "that it loses at least. Higher: bed joints may be uneven; lower: thin courses keep rows",
          "What each rule decides", 0, 0.5},
-        {&HeadJointsTuning::most_samples, "most_samples", "pixels",
-         "higher: joints are learnt more exactly of large exemplars; costs time", "not measured: bounds the time", 1},
         {&HeadJointsTuning::unlike_sections, "unlike_sections", "sections of six",
          "of a course across, which need not look like the joint. Higher: broken joints are found; lower: marks that "
          "do not reach across are not",
          "not measured: all but one of six", 0, 5},
     });
+
+constexpr int most_samples = 1 << 17;  // pixels that joints and bricks are learnt from; bounds the time
 
 /// What a pixel is judged by: itself, what is around it, and how much that varies.
 constexpr int most_traits = 2 * CourseSheet::most_channels + 1;
@@ -144,7 +143,7 @@ class HeadJoints::Samples {
         radius_(radius_of(half_breadth)),
         surely_(int(head_joints_tuning->surely_bed * half_breadth + 0.5)),
         surely_not_(2 * half_breadth + 2),
-        step_(std::max(1, int(int64_t{sheet.length} * sheet.breadth / head_joints_tuning->most_samples))) {}
+        step_(std::max(1, int(int64_t{sheet.length} * sheet.breadth / most_samples))) {}
 
   /// Those of these rows that a pattern has which shows every column.
   void add_rows(int begin, int end, Moments<>& to) {

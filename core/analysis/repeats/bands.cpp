@@ -26,10 +26,8 @@ struct BandsTuning {
   double near_best = 0.03;
   double least_turned = 0.3;
   double seen = 1.3;
-  double step = 0.1;
   double fine_step = 0.005;
   int most_repeats = 24;
-  int slants = 192;
 };
 const Tunable<BandsTuning> bands_tuning(
     "bands",
@@ -85,9 +83,6 @@ const Tunable<BandsTuning> bands_tuning(
          "how many of the longest one the exemplar must show. Higher: long periods are surer; lower: longer ones are "
          "looked for",
          "What each rule decides", 1},
-        {&BandsTuning::step, "step", "pixels",
-         "between the periods that are tried. Higher: less time; lower: narrow peaks are not missed",
-         "not measured: periods are looked for more finely near the best", 0.001},
         {&BandsTuning::fine_step, "fine_step", "pixels",
          "the same near the best one. Higher: less time; lower: a period is known more exactly",
          "What each rule decides", 0.0001},
@@ -95,10 +90,11 @@ const Tunable<BandsTuning> bands_tuning(
          "higher: more repeats are averaged; costs time. Lower: those far off, where a period that is not quite right "
          "has drifted, have no say",
          "What each rule decides"},
-        {&BandsTuning::slants, "slants", "slants from level to diagonal",
-         "higher: thin stripes are not missed; costs time",
-         "not measured: the best is looked for more finely in any case", 1},
     });
+
+// Periods and slants are looked for more finely near the best one.
+constexpr double period_step = 0.1;  // pixels
+constexpr int slants = 192;          // from level to diagonal
 
 /// How far lines that repeat stand out.
 struct LineRepeats {
@@ -195,7 +191,7 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
     const int length = courses ? r.exemplar().height : r.exemplar().width;
     for (int n = int(length / shortest_repeat()); n >= 2; n--) consider(double(length) / n);
   } else {
-    for (double period = shortest_repeat(); period <= lines.size() / bands_tuning->seen; period += bands_tuning->step)
+    for (double period = shortest_repeat(); period <= lines.size() / bands_tuning->seen; period += period_step)
       consider(period);
     LineRepeats most = best > 0 ? lines.repeats(best) : LineRepeats{};
     const double last = best * (1 + bands_tuning->near_best);
@@ -227,7 +223,6 @@ struct Slant {
 /// That of lines which differ most: along stripes.
 Slant slant_of_stripes(const Correlation& r) {
   Slant best;
-  const int slants = bands_tuning->slants;
   for (const bool courses : {true, false})
     for (int step = -slants; step <= slants; step++) {
       if (step == 0) continue;

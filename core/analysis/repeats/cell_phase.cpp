@@ -8,25 +8,13 @@
 
 #include "core/analysis/repeats/lag_correlation.h"
 #include "core/base/geometry.h"
-#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-struct CellPhaseTuning {
-  int fewest_bins = 8;
-  int most_bins = 48;
-};
-const Tunable<CellPhaseTuning> cell_phase_tuning(
-    "cell_phase", {
-                      {&CellPhaseTuning::fewest_bins, "fewest_bins", "bins along a step",
-                       "higher: small cells are compared more finely; lower: bins hold enough pixels",
-                       "not measured: taken over from the code before constants were listed", 1, 256},
-                      {&CellPhaseTuning::most_bins, "most_bins", "bins along a step",
-                       "higher: large cells are compared more finely; costs time, with the fourth power",
-                       "not measured: phases are found to a fraction of a bin", 1, 256},
-                  });
+// Along a step. Phases are found to a fraction of a bin, and time grows with the fourth power of their number.
+constexpr int fewest_bins = 8, most_bins = 48;
 
 struct Bins {
   int columns = 1, rows = 1;
@@ -35,8 +23,7 @@ struct Bins {
 /// About one to a pixel.
 Bins bins_of(const RepeatingView& r) {
   const auto along = [&](const Vector2d& step) {
-    return std::max(cell_phase_tuning->fewest_bins,
-                    std::min(int(std::ceil(step.norm() / r.view.scale)), cell_phase_tuning->most_bins));
+    return std::max(fewest_bins, std::min(int(std::ceil(step.norm() / r.view.scale)), most_bins));
   };
   return {along(r.lattice.first), r.lattice.rank == 2 ? along(r.lattice.second) : 1};
 }

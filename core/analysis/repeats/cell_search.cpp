@@ -14,7 +14,6 @@ namespace terrazzo {
 namespace {
 
 struct CellTuning {
-  double least_slant = 0.4;
   double longest = 6;
   double same_point = 2;
   double good_enough = 0.4;
@@ -28,16 +27,10 @@ struct CellTuning {
   double near_whole = 0.15;
   double on_point = 0.15;
   int farthest = 5;
-  int most_cells = 4;
-  int most_around = 12;
 };
 const Tunable<CellTuning> cell_tuning(
     "cell_search",
     {
-        {&CellTuning::least_slant, "least_slant", "sine",
-         "of the angle between two peaks that may span a cell. Higher: fewer pairs are tried; lower: flat ones that "
-         "noise spans are",
-         "not measured: the shortest vectors of a lattice are never flatter than 0.86", 0.01, 1},
         {&CellTuning::longest, "longest", "shorter sides",
          "what the longer side of a cell may have, around an exemplar that tiles. Higher: bands are taken for cells; "
          "lower: long boards are not found",
@@ -82,13 +75,11 @@ const Tunable<CellTuning> cell_tuning(
         {&CellTuning::farthest, "farthest", "steps from the origin",
          "at which a lattice is judged. Higher: chance lattices fail; lower: those that are a little off do not",
          "What each rule decides", 1, 100},
-        {&CellTuning::most_cells, "most_cells", "cells",
-         "of multiples that are compared with a lattice. Higher: larger patterns of tiles are found; costs time",
-         "not measured: taken over from the code before constants were listed"},
-        {&CellTuning::most_around, "most_around", "cells of an exemplar that tiles",
-         "of which, and of fewer, all lattices are tried. Higher: large cells are not missed; costs time",
-         "not measured: of more cells more peaks are seen", 0, 1000},
     });
+
+constexpr double least_slant = 0.4;  // sine of the angle between two peaks: the shortest vectors have at least 0.86
+constexpr int most_multiple = 4;     // of multiples that are compared with a lattice
+constexpr int most_around = 12;      // cells of an exemplar that tiles: of so few, all lattices are tried
 
 /// The shortest vectors that span the same lattice (Lagrange and Gauss).
 void reduce(Vector2d& a, Vector2d& b) {
@@ -266,7 +257,7 @@ class CellSearch {
   explicit CellSearch(const Correlation& r) : r_(r) {}
 
   void add(Vector2d a, Vector2d b) {
-    if (std::abs(cross(a, b)) < cell_tuning->least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
+    if (std::abs(cross(a, b)) < least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
     reduce(a, b);
     if (!fit(a, b)) return;
     const double area = std::abs(cross(a, b));
@@ -335,7 +326,7 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
     for (size_t q = p + 1; q < peaks.size(); q++) search.add(peaks[p], peaks[q]);
   for (const Lattice& l : further) search.add(l.first, l.second);
   // Of few cells few peaks are seen; all the lattices can be tried.
-  for (int cells = 2; r.wraps() && cells <= cell_tuning->most_around; cells++)
+  for (int cells = 2; r.wraps() && cells <= most_around; cells++)
     for (const Lattice& l : lattices_around(r.exemplar(), cells)) search.add(l.first, l.second);
   const Candidate* best = search.best();
   if (!best) return {};
@@ -355,7 +346,7 @@ Lattice without_false_repeats(const Correlation& r, const Lattice& lattice, doub
   const Candidate all = judged(r, a, b, -2);
   Lattice best = lattice;
   double largest = least_gap;
-  for (int cells = 2; cells <= cell_tuning->most_cells; cells++)
+  for (int cells = 2; cells <= most_multiple; cells++)
     for (int p = 1; p <= cells; p++) {
       if (cells % p != 0) continue;
       // Every sublattice of that many cells has a basis p * a, q * a + rows * b (Hermite normal form).

@@ -3,26 +3,13 @@
 #include <algorithm>
 
 #include "core/base/bounds.h"
-#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-struct ExemplarViewTuning {
-  int most_side = 256;
-  int smallest_side = 16;
-};
-const Tunable<ExemplarViewTuning> exemplar_view_tuning(
-    "exemplar_view",
-    {
-        {&ExemplarViewTuning::most_side, "most_side", "pixels",
-         "the longest side that is looked at. Higher: fine weaves of large exemplars are found; costs time",
-         "not measured: periods are found to a fraction of a pixel"},
-        {&ExemplarViewTuning::smallest_side, "smallest_side", "pixels",
-         "the shortest side that is looked at. Higher: tiny exemplars have no lattice; lower: chance has more room",
-         "not measured: less has no room for repeats", 8},
-    });
+// Periods are found to a fraction of a pixel; less than the smallest side has no room for repeats.
+constexpr int most_side = 256, smallest_side = 16;
 
 Rect allowed_within(const std::vector<uint8_t>& allowed, Size exemplar, const Rect& part) {
   const auto index = [&](size_t i) {
@@ -41,7 +28,7 @@ void halve(ExemplarView& view) {
 }  // namespace
 
 bool ExemplarView::empty() const {
-  return std::min(planes.size.width, planes.size.height) < exemplar_view_tuning->smallest_side;
+  return std::min(planes.size.width, planes.size.height) < smallest_side;
 }
 
 ExemplarView view_of(const Planes& exemplar, const std::vector<uint8_t>& allowed, const Rect& part) {
@@ -52,8 +39,7 @@ ExemplarView view_of(const Planes& exemplar, const std::vector<uint8_t>& allowed
     if (std::ranges::all_of(view.counts.values, [](float v) { return v == 1; })) view.counts = {};
   }
   view.planes = cropped(exemplar, view.seen);
-  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > exemplar_view_tuning->most_side)
-    halve(view);
+  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > most_side) halve(view);
   return view;
 }
 

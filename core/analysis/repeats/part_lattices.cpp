@@ -10,7 +10,6 @@
 #include "core/analysis/repeats/cell_phase.h"
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/error.h"
-#include "core/base/tuning.h"
 #include "core/image/image_facts.h"
 #include "core/material/map_names.h"
 
@@ -18,25 +17,9 @@ namespace terrazzo {
 
 namespace {
 
-struct PartLatticesTuning {
-  double most_unlike = 0.04;
-  double most_unlike_bands = 0.06;
-  int most_cells = 4;
-};
-const Tunable<PartLatticesTuning> part_lattices_tuning(
-    "part_lattices",
-    {
-        {&PartLatticesTuning::most_unlike, "most_unlike", "share of a step",
-         "by how much steps of two parts may differ. Higher: more parts are shown as one; "
-         "lower: they keep what they have",
-         "not measured: only with and without were compared"},
-        {&PartLatticesTuning::most_unlike_bands, "most_unlike_bands", "share of a period",
-         "the same of courses and columns", "not measured: courses of one wall do not all have the same height"},
-        {&PartLatticesTuning::most_cells, "most_cells", "cells",
-         "of one lattice in a cell of another. Higher: parts that show multiples of one cell "
-         "are brought together; lower: less chance",
-         "not measured: taken over from the code before constants were listed", 1},
-    });
+// By what share steps of two parts may differ; courses of one wall do not all have the same height.
+constexpr double most_unlike_cells = 0.04, most_unlike_bands = 0.06;
+constexpr int most_joined_cells = 4;  // of one lattice in a cell of another
 
 bool are_alike(const Vector2d& a, const Vector2d& b, double unlike) {
   return (a - b).norm() <= unlike * b.norm();
@@ -51,8 +34,8 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
     if ((l.first.x() != 0) != (model.first.x() != 0)) return {};
     const double steps = whole(l.cells(model.first).x());
     out.first = l.at({steps, 0});
-    return std::abs(steps) >= 1 && std::abs(steps) <= part_lattices_tuning->most_cells &&
-                   are_alike(out.first, model.first, part_lattices_tuning->most_unlike_bands)
+    return std::abs(steps) >= 1 && std::abs(steps) <= most_joined_cells &&
+                   are_alike(out.first, model.first, most_unlike_bands)
                ? std::optional(out)
                : std::nullopt;
   }
@@ -63,8 +46,8 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
   out.first = nearest(model.first);
   out.second = nearest(model.second);
   const double cells = out.cell_area() / l.cell_area();
-  if (cells < 0.5 || cells > part_lattices_tuning->most_cells + 0.5) return {};
-  const double unlike = part_lattices_tuning->most_unlike;
+  if (cells < 0.5 || cells > most_joined_cells + 0.5) return {};
+  const double unlike = most_unlike_cells;
   return are_alike(out.first, model.first, unlike) && are_alike(out.second, model.second, unlike) ? std::optional(out)
                                                                                                   : std::nullopt;
 }

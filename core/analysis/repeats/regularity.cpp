@@ -29,9 +29,6 @@ struct RegularityTuning {
   double least_sure_stripes = 0.6;
   double least_turned = 0.6;
   double quick_share = 0.7;
-  int quick_lag = 4;
-  int quick_side = 128;
-  int most_quick_side = 512;
 };
 const Tunable<RegularityTuning> regularity_tuning(
     "regularity",
@@ -68,17 +65,12 @@ const Tunable<RegularityTuning> regularity_tuning(
          "that something must correlate by at half the size. Higher: less is searched for "
          "a lattice; lower: no lattice is missed",
          "wrap_detection", 0, 1},
-        {&RegularityTuning::quick_lag, "quick_lag", "pixels at half the size",
-         "from which on repeats count there. Higher: grain counts for less; lower: cells that "
-         "come only twice are seen",
-         "not measured: of fine cells several lie that far apart", 1, 1000},
-        {&RegularityTuning::quick_side, "quick_side", "pixels", "the least side that is looked at quickly",
-         "not measured: smaller exemplars take no time", 16, 100000},
-        {&RegularityTuning::most_quick_side, "most_quick_side", "pixels",
-         "the longest side that is looked at quickly. Higher: time and memory grow; lower: "
-         "fine weaves of large exemplars are grain",
-         "not measured: twice what the search itself looks at", 16, 100000},
     });
+
+// Of the quick look at half the size. Smaller exemplars take no time; the longest side is twice what the search looks
+// at.
+constexpr int quick_side = 128, most_quick_side = 512;
+constexpr int quick_lag = 4;  // pixels from which on repeats count: of fine cells several lie that far apart
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
@@ -215,14 +207,12 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
 }
 
 bool may_have_lattice(const Features& features, double least_certainty, const Task& task) {
-  if (std::min(features.size().width, features.size().height) < regularity_tuning->quick_side ||
-      !allowed_pixels(features).empty())
+  if (std::min(features.size().width, features.size().height) < quick_side || !allowed_pixels(features).empty())
     return true;
   Planes seen = halved(weighted_planes(features, task));
-  while (std::max(seen.size.width, seen.size.height) > regularity_tuning->most_quick_side) seen = halved(seen);
+  while (std::max(seen.size.width, seen.size.height) > most_quick_side) seen = halved(seen);
   for (const Planes& planes : {seen, outlines(seen, task)})
-    if (highest_from(correlate(planes, {}, task), regularity_tuning->quick_lag) >=
-        regularity_tuning->quick_share * least_certainty)
+    if (highest_from(correlate(planes, {}, task), quick_lag) >= regularity_tuning->quick_share * least_certainty)
       return true;
   return false;
 }

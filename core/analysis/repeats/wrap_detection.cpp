@@ -29,12 +29,10 @@ struct WrapDetectionTuning {
   double most_excess = 1.0 / 120;
   double quick_slack = 1;
   int window = 6;
-  int samples = 64;
   int lines = 96;
   int enough_lines = 3;
   double least_seen = 0.25;
   double most_alike = 0.9;
-  int steps = 512;
 };
 const Tunable<WrapDetectionTuning> wrap_detection_tuning(
     "wrap_detection",
@@ -63,8 +61,6 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
         {&WrapDetectionTuning::window, "window", "pixels a side",
          "of the windows that are compared. Higher: larger features must fit; lower: less is unusual",
          "What each rule decides", 1},
-        {&WrapDetectionTuning::samples, "samples", "windows",
-         "along a seam or a line. Higher: their mean is surer; costs time", "not measured: bounds the time", 1},
         {&WrapDetectionTuning::lines, "lines", "lines inside",
          "across which windows may be as unusual. Higher: joints inside are not missed; costs time", "wrap_detection",
          1},
@@ -78,9 +74,11 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
          "which neighbours may have to tell anything. Higher: noise is taken to wrap; lower: fine grain that wraps is "
          "not",
          "not measured: white noise comes to 1 within a few hundredths", 0, 1},
-        {&WrapDetectionTuning::steps, "steps", "steps inside", "whose mean is taken. Higher: surer; costs time",
-         "not measured: bounds the time", 1},
     });
+
+// They bound the time.
+constexpr int window_samples = 64;  // windows along a seam or a line
+constexpr int inner_steps = 512;    // inside, whose mean is taken
 
 /// How far a window is from the nearest of many windows elsewhere; a map at a border is judged by what it does inside.
 class WindowSearch {
@@ -129,8 +127,7 @@ struct Steps {
 };
 
 Steps steps_of(const SeenMap& map, bool rows, const Task& task) {
-  const int lines = rows ? map.image->height() : map.image->width(),
-            apart = std::max(1, lines / wrap_detection_tuning->steps);
+  const int lines = rows ? map.image->height() : map.image->width(), apart = std::max(1, lines / inner_steps);
   Steps out{step_at(map, rows, 0).distance, std::max(step_at(map, rows, -1).distance, step_at(map, rows, 1).distance),
             0, 0};
   int steps = 0;
@@ -156,7 +153,7 @@ class Fit {
       const WindowSearch& search = *searches_.emplace_back(std::make_unique<WindowSearch>(map));
       if (!search.can_tell()) return;
       Mean mean;
-      for (int i = 0; i < samples; i++) {
+      for (int i = 0; i < window_samples; i++) {
         const int x = inside(map.image->width(), {12, 0, i}), y = inside(map.image->height(), {12, 1, i});
         if (map.counts_all(x, y, wrap_detection_tuning->window)) mean.add(search.nearest(x, y, 0));
       }
@@ -192,7 +189,7 @@ class Fit {
       const int width = maps_[m].image->width(), height = maps_[m].image->height(), breadth = rows ? height : width;
       const int first = line ? at(*line, breadth) : breadth - wrap_detection_tuning->window / 2;
       Mean mean;
-      for (int i = 0; i < samples; i++) {
+      for (int i = 0; i < window_samples; i++) {
         const int along = inside(rows ? width : height, {13, rows ? 1 : 0, i});
         const int x = rows ? along : first, y = rows ? first : along;
         if (maps_[m].counts_all(x, y, wrap_detection_tuning->window))
@@ -206,7 +203,6 @@ class Fit {
   const std::vector<SeenMap>& maps_;
   std::vector<std::unique_ptr<WindowSearch>> searches_;
   std::vector<double> inside_;
-  const int samples = wrap_detection_tuning->samples;
 };
 
 /// Whether there are lines inside across which windows look as little like the rest as across the seam: joints are such
@@ -305,7 +301,7 @@ bool windows_fit(const Borders& borders, const Task& task) {
 bool neighbours_are_alike(const SeenMap& map, bool rows) {
   const auto lines = uint32_t(rows ? map.image->height() : map.image->width());
   double neighbours = 0, any_two = 0;
-  for (int i = 0; i < wrap_detection_tuning->samples; i++) {
+  for (int i = 0; i < window_samples; i++) {
     const uint64_t r = random_bits(14, rows ? 1 : 0, i);
     const int at = int(below(uint32_t(r), lines - 1)) + 1, other = int(below(uint32_t(r >> 32), lines));
     neighbours += step_at(map, rows, at).distance;
