@@ -21,56 +21,10 @@ const Tunable<LatticeOriginTuning> lattice_origin_tuning(
 
 constexpr int bins = 64;
 
-double fraction(double cells) {
-  return cells - std::floor(cells);
-}
-
-/// Where within a cell output places less exemplar places lie, as a histogram.
-class PhaseVotes {
- public:
-  explicit PhaseVotes(const Lattice& lattice)
-      : lattice_(lattice), rows_(lattice.rank == 2 ? bins : 1), votes_(size_t(bins) * size_t(rows_)) {}
-
-  void add(double x, double y) {
-    const Vector2d c = lattice_.cells({x, y}), within{fraction(c.x()), rows_ > 1 ? fraction(c.y()) : 0};
-    Votes& v = at(bin_of(within.x()), bin_of(within.y()));
-    v.count++;
-    v.sum += within;
-  }
-
-  /// The mean of the bins, next to one another, that have the most.
-  Vector2d most() {
-    Votes best;
-    for (int row = 0; row < rows_; row++)
-      for (int column = 0; column < bins; column++)
-        if (const Votes sum = around(column, row); sum.count > best.count) best = sum;
-    return lattice_.at(best.sum / double(std::max<int64_t>(1, best.count)));
-  }
-
- private:
-  struct Votes {
-    int64_t count = 0;
-    Vector2d sum{0, 0};  // in cells
-  };
-  int bin_of(double cells) const { return std::min(bins - 1, int(cells * bins)); }
-  Votes& at(int column, int row) { return votes_[size_t(wrap(row, rows_)) * bins + size_t(wrap(column, bins))]; }
-
-  Votes around(int column, int row) {
-    const int reach = rows_ > 1 ? 1 : 0;
-    Votes sum;
-    for (int y = row - reach; y <= row + reach; y++)
-      for (int x = column - 1; x <= column + 1; x++) {
-        const Votes& v = at(x, y);
-        sum.count += v.count;
-        // Beyond the border a cell further.
-        sum.sum += v.sum + double(v.count) * Vector2d(x < 0 ? -1 : x >= bins ? 1 : 0, y < 0 ? -1 : y >= rows_ ? 1 : 0);
-      }
-    return sum;
-  }
-
-  const Lattice& lattice_;
-  int rows_;
-  std::vector<Votes> votes_;
+/// Places within a cell that fall into one bin.
+struct Votes {
+  int64_t count = 0;
+  Vector2d sum{0, 0};  // in cells
 };
 
 }  // namespace
@@ -86,15 +40,22 @@ Vector2d random_lattice_origin(const Lattice& lattice, uint64_t bits) {
 Vector2d lattice_origin(const Lattice& lattice, const ExistingPixels& kept, Size size) {
   if (lattice.rank == 0) return {};
   const bool some_stay = std::ranges::find(kept.keep, Keep::always) != kept.keep.end();
-  PhaseVotes votes(lattice);
+  const int rows = lattice.rank == 2 ? bins : 1;
+  std::vector<Votes> votes(size_t(bins) * size_t(rows));
+  const auto bin_of = [](double part, int count) { return size_t(std::min(count - 1, int(part * count))); };
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       const size_t i = size_t(y) * size_t(size.width) + size_t(x);
       if (kept.keep[i] != (some_stay ? Keep::always : Keep::at_first)) continue;
       const ExemplarPixel& p = kept.pixels[i];
-      votes.add(x - p.x, y - p.y);
+      const Vector2d cells = lattice.cells({double(x - p.x), double(y - p.y)});
+      const Vector2d within = cells.array() - cells.array().floor();
+      Votes& v = votes[bin_of(within.y(), rows) * bins + bin_of(within.x(), bins)];
+      v.count++;
+      v.sum += within;
     }
-  const Vector2d at = votes.most();
+  const Votes& most = *std::ranges::max_element(votes, {}, &Votes::count);
+  const Vector2d at = lattice.at(most.sum / double(std::max<int64_t>(1, most.count)));
   return lattice.rank == 2 && lattice.is_whole() ? Vector2d{std::floor(at.x() + 0.5), std::floor(at.y() + 0.5)} : at;
 }
 
