@@ -1,9 +1,7 @@
 #include "core/analysis/repeats/regularity.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -321,38 +319,6 @@ TEST_CASE(
     return float(unit_double(random_bits(4, wrap(x + y, 256) / 3)) + unit_double(random_bits(5, x / 2, y / 2)));
   };
   CHECK(lattice_of(plain_features(make_image({256, 256}, 1, slanted_grain), true)).rank == 0);
-}
-
-TEST_CASE("panels of many heights between posts are one cell, though their joints come in steps") {
-  const std::array<int, 7> joints = {0, 48, 72, 96, 144, 168, 192};
-  const auto across = [&](int at) {
-    const auto next = std::ranges::upper_bound(joints, at);
-    return std::min(at - *std::prev(next), *next - 1 - at);
-  };
-  const FeaturesPtr f = plain_features(make_image({192, 192}, 1,
-                                                  [&](int x, int y, int) {
-                                                    const int post = std::min(x, 191 - x);
-                                                    const int depth = std::min({across(y), post, std::abs(post - 14)});
-                                                    const double noise = unit_double(random_bits(4, x, y));
-                                                    return float((depth < 2 ? 0.1 : 0.7) + 0.1 * noise);
-                                                  }),
-                                       true);
-  CHECK(lattice_of(f).is_single_cell({192, 192}));
-}
-
-TEST_CASE("panels in a row of which some are two wide come again as a whole") {
-  const auto row = [](bool wide) {
-    return plain_features(make_image({256, 128}, 1,
-                                     [=](int x, int y, int) {
-                                       const bool closed = wide && (x / 32 == 2 || x / 32 == 4 || x / 32 == 7);
-                                       const bool joint = x % 32 >= 30 && !closed;
-                                       const double noise = unit_double(random_bits(4, x, y));
-                                       return float((y < 12 ? 0.1 : joint ? 0.3 : 0.7) + 0.1 * noise);
-                                     }),
-                          true);
-  };
-  check_cell(lattice_of(row(false)), 32, 0, 0, 128);
-  CHECK(lattice_of(row(true)).is_single_cell({256, 128}));
 }
 
 TEST_CASE("joints that cross without a second tile to measure are told of, stones are not") {
