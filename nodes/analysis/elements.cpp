@@ -62,7 +62,7 @@ void compute_elements(NodeContext& node) {
 NodeType elements_node() {
   NodeType t;
   t.name = "elements";
-  t.version = 3;
+  t.version = 4;
   t.category = "analysis";
   t.summary = "Parts an exemplar into its elements: stones, bricks, slates, tiles";
   t.help =

@@ -21,8 +21,8 @@ struct FindElementsTuning {
   int components = 3;
   int clues = 4;
   int rounds = 2;
-  double unsure = 2;
-  double sure = 6;
+  double unsure = 2.5;
+  double sure = 7;
 };
 const Tunable<FindElementsTuning> find_elements_tuning(
     "find_elements",
@@ -38,8 +38,8 @@ const Tunable<FindElementsTuning> find_elements_tuning(
          "that are tried at the finest scale, those best at coarser ones. Costs time", "elements", 1, 64},
         {&FindElementsTuning::rounds, "rounds", "rounds", "of learning what joints look like. Costs time", "elements",
          0, 8},
-        {&FindElementsTuning::unsure, "unsure", "quality", "that noise, grass and sand come to", "elements"},
-        {&FindElementsTuning::sure, "sure", "quality", "from which on it is certain", "elements", 0.1},
+        {&FindElementsTuning::unsure, "unsure", "confidence", "that noise, grass and sand come to", "elements"},
+        {&FindElementsTuning::sure, "sure", "confidence", "from which on it is certain", "elements", 0.1},
     });
 
 constexpr double line_width = 1;  // of line_responses, in pixels of its scale
@@ -196,9 +196,9 @@ ElementsPtr find_elements(const Features& features, const Task& task) {
   const std::vector<uint8_t> relief = relief_at_size(found, exemplar.size, exemplar.wraps);
   out->at = at_size(found, relief, exemplar.size, exemplar.wraps);
   out->count = found.partition.regions.count;
-  out->certainty = std::clamp(
-      (found.quality - find_elements_tuning->unsure) / (find_elements_tuning->sure - find_elements_tuning->unsure), 0.0,
-      1.0);
+  out->certainty = std::clamp((found.partition.confidence() - find_elements_tuning->unsure) /
+                                  (find_elements_tuning->sure - find_elements_tuning->unsure),
+                              0.0, 1.0);
   return out;
 }
 

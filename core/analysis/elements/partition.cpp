@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/portable_math.h"
 #include "core/base/tuning.h"
 #include "core/exemplar/elements.h"
 #include "core/numeric/distance_transform.h"
@@ -137,9 +138,29 @@ double weak_share(const std::vector<uint8_t>& relief, const std::vector<uint8_t>
   return double(weak) / double(std::max<int64_t>(1, all));
 }
 
-/// What shapes say: compact, thin, largest.
-void judge_shapes(Partition& p, const std::vector<uint8_t>& border, Size size, bool wraps, double line) {
-  const std::vector<int64_t> distance = squared_distances(border, size, wraps);
+/// The share of the pixels beyond a line's width from any border where the relief is nearer to the mean of the lines
+/// kept than to the mean of these pixels.
+double stray_share(const std::vector<uint8_t>& relief, const std::vector<int64_t>& distance, double line,
+                   double lines_kept) {
+  std::array<int64_t, 256> pixels{};
+  int64_t all = 0, sum = 0;
+  const double within = 2 * line;
+  for (size_t i = 0; i < relief.size(); i++) {
+    if (double(distance[i]) <= within * within) continue;
+    pixels[relief[i]]++;
+    all++;
+    sum += relief[i];
+  }
+  if (all == 0) return 1;
+  const double middle = (double(sum) / double(all) + lines_kept) / 2;
+  int64_t stray = 0;
+  for (size_t height = 0; height < pixels.size(); height++)
+    if (double(height) >= middle) stray += pixels[height];
+  return double(stray) / double(all);
+}
+
+/// What shapes say: compact, thin, largest, number.
+void judge_shapes(Partition& p, const std::vector<uint8_t>& border, const std::vector<int64_t>& distance, double line) {
   struct Shape {
     double area = 0, outline = 0;
     int64_t deepest = 0;
@@ -152,11 +173,14 @@ void judge_shapes(Partition& p, const std::vector<uint8_t>& border, Size size, b
     s.deepest = std::max(s.deepest, distance[i]);
   }
   const double deep = partition_tuning->thin * line, all = double(border.size());
+  double squares = 0;
   for (const Shape& s : shapes) {
     p.compact += s.area / all * std::min(1.0, 16 * s.area / std::max(1.0, s.outline * s.outline));
     p.largest = std::max(p.largest, s.area / all);
+    squares += s.area / all * (s.area / all);
     if (double(s.deepest) < deep * deep) p.thin += s.area / all;
   }
+  p.number = 1 / squares;
 }
 
 /// The share of the picture in regions that have pixels in every column, or in every row.
@@ -194,6 +218,10 @@ double Partition::quality() const {
          (largest > partition_tuning->largest ? 0.3 : 1);
 }
 
+double Partition::confidence() const {
+  return quality() * std::max(0.0, 1 - 2 * stray) * portable::root<3>(portable::log(std::max(1.0, number)));
+}
+
 Partition partitioned(const std::vector<uint8_t>& relief, Size size, bool wraps, double line) {
   const Regions basins = catchment_basins(relief, size, wraps);
   const std::vector<RegionBorder> borders = region_borders(basins, relief, size, wraps);
@@ -211,7 +239,9 @@ Partition partitioned(const std::vector<uint8_t>& relief, Size size, bool wraps,
                std::sqrt((lines.kept.variance() + lines.given_up.variance()) / 2 + 1);
   const std::vector<uint8_t> border = border_pixels(p.regions.at, size, wraps);
   p.weak = weak_share(relief, border, size, wraps, line, lines.at(partition_tuning->weak));
-  judge_shapes(p, border, size, wraps, line);
+  const std::vector<int64_t> distance = squared_distances(border, size, wraps);
+  p.stray = stray_share(relief, distance, line, lines.kept.mean());
+  judge_shapes(p, border, distance, line);
   p.spanning = spanning_share(p.regions, size);
   return p;
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
+#include "core/analysis/elements/partition.h"
 #include "core/base/error.h"
 #include "tests/drawn_stones.h"
 #include "tests/drawn_wall.h"
@@ -38,7 +39,29 @@ FeaturesPtr noise_features(Size size) {
       make_image(size, 1, [](int x, int y, int) { return float(unit_double(random_bits(4, x, y))); }));
 }
 
+/// Square cells with lines between them; `dashes`: with a short line in each cell that ends nowhere.
+Partition cells(int across, bool dashes) {
+  constexpr int side = 16;
+  const Size size{across * side, across * side};
+  std::vector<uint8_t> relief;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const int u = x % side, v = y % side;
+      const bool line = u == 0 || v == 0 || (dashes && u == side / 2 && v > 5 && v < 12);
+      relief.push_back(uint8_t((line ? 160 : 20) + 40 * unit_double(random_bits(3, x, y))));
+    }
+  return partitioned(relief, size, true, 1);
+}
+
 }  // namespace
+
+TEST_CASE("many elements are surer than few, and those without lines inside surer than those with") {
+  CHECK(cells(8, false).regions.count == 64);
+  CHECK(cells(8, false).confidence() > 1.2 * cells(3, false).confidence());
+  CHECK(cells(8, true).confidence() < 0.9 * cells(8, false).confidence());
+  CHECK(cells(8, true).stray > 0.02);
+  CHECK(cells(8, false).stray < 0.01);
+}
 
 TEST_CASE("stones are told apart by their joints, dark or light, at several sizes") {
   for (const Size size : {Size{128, 128}, Size{200, 160}, Size{520, 400}})
