@@ -10,8 +10,8 @@ namespace terrazzo {
 /// Courses of different heights that an exemplar has once each, as its elements tell them.
 struct ElementCourses {
   bool upright = false;  ///< they are columns
-  std::vector<ExemplarSpan>
-      bands;  ///< across: each course, from the middle of one joint all along the exemplar to the next
+  /// Across: each course, from the middle of a joint that goes all along the exemplar to the next.
+  std::vector<ExemplarSpan> bands;
   /// Of each of them, along it: what lies between two joints that go all across it. Without what reaches over several
   /// courses.
   std::vector<std::vector<ExemplarSpan>> pieces;

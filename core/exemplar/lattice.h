@@ -86,8 +86,8 @@ struct ExemplarSpan {
   double length() const { return to - from; }
 };
 /// Which one a surface shows from one place to another, in pixels of the finest level. Its ends are shown where they
-/// are: what is too much is left out at `cut`, what is missing is repeated there; a pixel at each end is hidden in its
-/// joints.
+/// are: what is too much is left out at `cut`, what is missing is repeated there. Half a pixel at each end is not
+/// seen.
 struct ShownSpan {
   double begin, end;  ///< of the surface
   int number;         ///< among the exemplar's

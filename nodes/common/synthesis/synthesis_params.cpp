@@ -183,8 +183,8 @@ void require_same_exemplar(const InputForecasts& inputs) {
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence) {
   if (!options.tile_x && !options.tile_y) return;
-  const Lattice lattice = repeats_in_result(*index.appearance(), options).lattice;
   if (repeats_fit(*index.appearance(), options)) return;
+  const Lattice lattice = repeats_in_result(*index.appearance(), options).lattice;
   SynthesisOptions other = options;
   other.kept = {};
   const auto fits = [&](Size size) {
