@@ -247,7 +247,7 @@ std::vector<Vector2d> LatticePhase::bent_to(const std::vector<ShownSpan>& bands,
   std::vector<Vector2d> out(size_t(length / scale) + 2);
   for (size_t i = 0; i < out.size() && !bands.empty(); i++) {
     double at = double(i) * scale;
-    if (at < bands.front().begin) at += length;
+    if (at < bands.front().begin) at += bands.back().end - bands.front().begin;
     const ShownSpan& b = *(std::ranges::upper_bound(bands, at, {}, &ShownSpan::begin) - 1);
     out[i].x() = to_output_.row(0).sum() * double(i) - origin_.x() - (at + b.shift(at)) / step;
   }

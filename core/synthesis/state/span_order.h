@@ -30,6 +30,7 @@ class SpanOrder {
   /// Spans in ascending order that cover all of the result, around its border if it wraps: those that most of what is
   /// kept in their place shows, and others between and around them, each about as often as the others. Where the result
   /// wraps, or what is kept leaves a gap, those are chosen whose lengths make it up, and stretched by what is missing.
+  /// Another one each time.
   std::vector<ShownSpan> order();
 
  private:

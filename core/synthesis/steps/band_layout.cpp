@@ -73,9 +73,9 @@ class BandLayout {
     constexpr int tries = 8;
     std::vector<ShownSpan> best;
     double least = 0;
+    SpanOrder order(courses_.pieces[size_t(band.number)], along_, more_random_bits(bits_, number));
+    if (level_.fixed.any()) keep(order, band);
     for (int i = 0; i < tries; i++) {
-      SpanOrder order(courses_.pieces[size_t(band.number)], along_, more_random_bits(bits_, number, i));
-      if (level_.fixed.any()) keep(order, band);
       std::vector<ShownSpan> pieces = order.order();
       const double met = meeting(pieces, before, (band.end - band.begin) / 2);
       if (i == 0 || met < least) best = std::move(pieces);
@@ -156,8 +156,10 @@ std::vector<ShownSpan> bands_of(const ElementCourses& courses, Size exemplar, co
                                 const ExistingPixels& kept, uint64_t bits) {
   if (courses.empty()) return {};
   const Size size = result.size;
-  const SpanLine across = courses.upright ? SpanLine{exemplar.width, size.width, result.tile_x}
-                                          : SpanLine{exemplar.height, size.height, result.tile_y};
+  // As many pixels as the blocks that they are laid in: those wrap.
+  const auto in_blocks = [](int length) { return length + length % 2; };
+  const SpanLine across = courses.upright ? SpanLine{exemplar.width, in_blocks(size.width), result.tile_x}
+                                          : SpanLine{exemplar.height, in_blocks(size.height), result.tile_y};
   SpanOrder order(courses.bands, across, bits);
   const bool some_stay = std::ranges::find(kept.keep, Keep::always) != kept.keep.end();
   for (size_t i = 0; i < kept.keep.size(); i++) {

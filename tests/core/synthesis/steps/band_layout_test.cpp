@@ -75,6 +75,17 @@ TEST_CASE("a result that wraps shows whole panels whatever its size") {
   }
 }
 
+TEST_CASE("bands cover all blocks of a result, also of one that wraps after an odd number of pixels") {
+  const ElementCourses courses = element_courses(*DrawnPanels(false).appearance()->elements(), true);
+  REQUIRE(courses.bands.size() == 3);
+  for (const int height : {566, 567})
+    for (const uint64_t bits : {1, 2, 3, 4}) {
+      const auto bands = bands_of(courses, DrawnPanels::size, {{300, height}, true, true}, {}, bits);
+      CHECK(bands.back().end - bands.front().begin == doctest::Approx(height + height % 2));
+      for (size_t i = 1; i < bands.size(); i++) CHECK(bands[i].begin == doctest::Approx(bands[i - 1].end));
+    }
+}
+
 TEST_CASE("around kept pixels courses and panels go on") {
   const AppearancePtr appearance = DrawnPanels(false).appearance();
   const IndexPtr index = make_index(appearance, 3, task);
