@@ -1,7 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "core/exemplar/elements.h"
 #include "core/exemplar/lattice.h"
 #include "tests/exemplars.h"
 
@@ -56,9 +61,26 @@ class DrawnWall {
         },
         Semantic::base_color, "srgb_texture");
   }
-  AppearancePtr appearance() const {
-    return make_appearance(*plain_features(image())->with(lattice()), {}, {}, Task());
+  /// Each brick with its part of the joints around it, numbered course by course.
+  Elements elements() const {
+    Elements out{size_, {}, 0, 1};
+    std::map<std::pair<int, int>, int> numbers;  // of a brick, by its course and its place in it
+    const auto courses = int(ends_.size());
+    for (int y = 0; y < size_.height; y++)
+      for (int x = 0; x < size_.width; x++) {
+        const int along = (upright_ ? y : x) - joint / 2, across = (upright_ ? x : y) - joint / 2;
+        const int c = std::clamp(across / course, 0, courses - 1);
+        const std::vector<int>& ends = ends_[size_t(c)];
+        const auto place = int(std::ranges::upper_bound(ends, along) - ends.begin());
+        out.at.push_back(uint16_t(numbers.emplace(std::pair(c, place), int(numbers.size())).first->second));
+      }
+    out.count = int(numbers.size());
+    return out;
   }
+  FeaturesPtr features() const {
+    return plain_features(image())->with(lattice())->with(std::make_shared<const Elements>(elements()));
+  }
+  AppearancePtr appearance() const { return make_appearance(*features(), {}, {}, Task()); }
 
  private:
   Size size_;

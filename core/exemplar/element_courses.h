@@ -7,7 +7,12 @@
 
 namespace terrazzo {
 
-/// Courses of different heights that an exemplar has once each, as its elements tell them.
+/// What a course may consist of, and the course that each piece is of.
+struct CoursePieces {
+  std::vector<ExemplarSpan> pieces, bands;
+};
+
+/// Courses of an exemplar, of one height or of several, as its elements tell them.
 struct ElementCourses {
   bool upright = false;  ///< they are columns
   /// Across: each course, from the middle of a joint that goes all along the exemplar to the next.
@@ -17,14 +22,16 @@ struct ElementCourses {
   std::vector<std::vector<ExemplarSpan>> pieces;
 
   bool empty() const { return bands.empty(); }
+  /// Those of all courses that are as high as this one.
+  CoursePieces pieces_for(const ExemplarSpan& band) const;
   /// As a lattice: one band as high, or as wide, as the exemplar. Rank 0 if empty.
   Lattice lattice(Size exemplar) const;
 };
 
 /// `tiles`: the exemplar does, and courses and pieces go on around its border; of one that does not, those that its
-/// border cuts do not count. Empty if joints go all along it both ways or in no way, if there are fewer than two
-/// courses, or pieces in one of them, or if joints go on from course to course: then what lies side by side belongs
-/// together. Thread-safe.
+/// border cuts count only where few others are, on the right and below, up to there. Empty if joints go all along it
+/// both ways or in no way, if there are fewer than two courses, or no pieces for one of them, or if joints go on from
+/// course to course: then what lies side by side belongs together. Thread-safe.
 ElementCourses element_courses(const Elements& elements, bool tiles);
 
 /// Whether joints go all along an exemplar that tiles both ways: panels of all sizes in a frame. Thread-safe.

@@ -1,18 +1,22 @@
 #include "core/exemplar/elements.h"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 #include <vector>
 
 namespace terrazzo {
 
-int whole_elements(const Elements& elements, bool wraps) {
-  if (wraps) return elements.count;
-  std::set<uint16_t> cut;
+std::vector<uint8_t> cut_elements(const Elements& elements, bool wraps) {
+  std::vector<uint8_t> out(size_t(elements.count), 0);
+  if (wraps) return out;
   const auto width = size_t(elements.size.width), height = size_t(elements.size.height);
-  for (size_t x = 0; x < width; x++) cut.insert({elements.at[x], elements.at[(height - 1) * width + x]});
-  for (size_t y = 0; y < height; y++) cut.insert({elements.at[y * width], elements.at[y * width + width - 1]});
-  return elements.count - int(cut.size());
+  for (size_t x = 0; x < width; x++) out[elements.at[x]] = out[elements.at[(height - 1) * width + x]] = 1;
+  for (size_t y = 0; y < height; y++) out[elements.at[y * width]] = out[elements.at[y * width + width - 1]] = 1;
+  return out;
+}
+
+int whole_elements(const Elements& elements, bool wraps) {
+  return int(std::ranges::count(cut_elements(elements, wraps), 0));
 }
 
 double typical_side(const Elements& elements) {

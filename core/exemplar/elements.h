@@ -24,7 +24,9 @@ struct Elements {
     h.add(size.width).add(size.height).add(count).add(certainty).bytes(at.data(), at.size() * sizeof(uint16_t));
   }
 };
-/// How many of them no border cuts. `wraps`: the exemplar tiles.
+/// Of each of them whether the exemplar's border cuts it. `wraps`: the exemplar tiles, and cuts none.
+std::vector<uint8_t> cut_elements(const Elements& elements, bool wraps);
+/// How many of them no border cuts.
 int whole_elements(const Elements& elements, bool wraps);
 
 /// The side of a square as large as the element that a pixel belongs to, in the mean of all pixels; in pixels.

@@ -84,6 +84,7 @@ struct LatticeGaps {
 struct ExemplarSpan {
   double from, to;
   double length() const { return to - from; }
+  bool operator==(const ExemplarSpan&) const = default;
 };
 /// Which one a surface shows from one place to another, in pixels of the finest level. Its ends are shown where they
 /// are: what is too much is left out at `cut`, what is missing is repeated there. Half a pixel at each end is not

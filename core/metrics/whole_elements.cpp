@@ -176,7 +176,20 @@ class LaidElements {
     }
     shown_.distinct = int(distinct.size());
     // Torn elements are counted by their area: they are more, or, melted together, fewer than they should be.
-    if (total_ > 0) shown_.all = std::max(shown_.whole, int(area_of_all * elements_.count / total_ + 0.5));
+    if (total_ > 0) shown_.all = std::max(shown_.whole, int(area_of_all / mean_area() + 0.5));
+  }
+
+  /// Of the exemplar's elements; without those that its border cuts, unless it cuts all.
+  double mean_area() const {
+    const std::vector<uint8_t> cut = cut_elements(elements_, wraps_.exemplar);
+    double sum = 0;
+    int count = 0;
+    for (size_t e = 0; e < cut.size(); e++) {
+      if (cut[e]) continue;
+      sum += areas_[e];
+      count++;
+    }
+    return sum > 0 ? sum / count : total_ / elements_.count;
   }
 
   UvWraps wraps_;

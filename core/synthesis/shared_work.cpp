@@ -15,8 +15,6 @@ namespace {
 struct SharedWorkTuning {
   double shortest_brick = 64;
   double surest_lattice = 0.4;
-  double surest_courses = 0.9;
-  double shortest_course = 24;
 };
 const Tunable<SharedWorkTuning> shared_work_tuning(
     "shared_work",
@@ -27,13 +25,6 @@ const Tunable<SharedWorkTuning> shared_work_tuning(
      {&SharedWorkTuning::surest_lattice, "surest_lattice", "certainty",
       "of cells that repeat, from which on elements are laid in phase with them rather than anywhere. Higher: "
       "straight rows bend; lower: stones that vary overlap",
-      "element_layout"},
-     {&SharedWorkTuning::surest_courses, "surest_courses", "certainty",
-      "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
-      "squeezed between others; lower: stones that lie in rough courses are cut",
-      "element_layout"},
-     {&SharedWorkTuning::shortest_course, "shortest_course", "pixels",
-      "the height from which on that holds. Lower: fine bricks are laid along courses, too, and cut",
       "element_layout"}});
 
 /// Parts that repeat each in its own way keep to where they lie in the exemplar, and so does what controls place.
@@ -44,17 +35,14 @@ Vector2d lattice_start(const Repeats& repeats, const SynthesisOptions& o) {
   return random_lattice_origin(repeats.lattice, random_bits(o.seed, Purpose::first_cell));
 }
 
-/// Those of an exemplar that repeats as a whole only, or not surely, where they are laid anew.
-ElementCourses single_courses(const Appearance& appearance, const SynthesisOptions& options) {
+/// Those that are laid anew. What keeps to a lattice of cells is in its place already, unless the cell is all of it.
+ElementCourses courses_laid_anew(const Appearance& appearance, const SynthesisOptions& options) {
   const Lattice& l = appearance.lattice();
   const bool laid = options.whole_bricks && options.quality != Quality::draft && options.controls.empty();
   if (!laid || l.rank == 0 || !appearance.elements()) return {};
-  const bool as_whole = l.is_single_cell(appearance.size()) || (l.rank == 1 && l.comes_once(appearance.size()));
-  const bool sure = l.rank == 1 ? keeps_to_courses(l) : are_in_step(*appearance.elements(), l, appearance.wraps());
-  if (sure && !as_whole) return {};
-  ElementCourses courses = element_courses(*appearance.elements(), appearance.wraps());
-  const double breadth = courses.upright ? appearance.size().width : appearance.size().height;
-  return breadth >= shared_work_tuning->shortest_course * double(courses.bands.size()) ? courses : ElementCourses();
+  if (l.rank == 2 && !l.is_single_cell(appearance.size()) && are_in_step(*appearance.elements(), l, appearance.wraps()))
+    return {};
+  return element_courses(*appearance.elements(), appearance.wraps());
 }
 
 std::vector<ShownSpan> bands_in_result(const ElementCourses& courses, Size exemplar, const SynthesisOptions& o) {
@@ -80,8 +68,7 @@ WholeElements whole_elements_of(const Appearance& appearance, const Repeats& rep
                                 const SynthesisOptions& options) {
   if (!options.whole_bricks || !courses.empty() || !has_elements(appearance)) return WholeElements::none;
   const Lattice& lattice = repeats.lattice;
-  if (!is_grid(lattice, appearance))
-    return keeps_to_courses(lattice) && options.kept.empty() ? WholeElements::none : WholeElements::free;
+  if (!is_grid(lattice, appearance)) return WholeElements::free;
   const bool small = typical_side(*appearance.elements()) < shared_work_tuning->shortest_brick;
   if (!repeats.parts.empty()) return small ? WholeElements::none : WholeElements::free;
   return small ? WholeElements::completed : WholeElements::in_cells;
@@ -90,11 +77,15 @@ WholeElements whole_elements_of(const Appearance& appearance, const Repeats& rep
 }  // namespace
 
 Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options) {
-  return repeats_of(appearance, single_courses(appearance, options), options);
+  return repeats_of(appearance, courses_laid_anew(appearance, options), options);
+}
+
+bool lays_courses(const Appearance& appearance, const SynthesisOptions& options) {
+  return !courses_laid_anew(appearance, options).empty();
 }
 
 bool repeats_fit(const Appearance& appearance, const SynthesisOptions& options) {
-  const ElementCourses courses = single_courses(appearance, options);
+  const ElementCourses courses = courses_laid_anew(appearance, options);
   const Repeats repeats = repeats_of(appearance, courses, options);
   const auto is_unseen = [&](const Lattice& l) {
     return l.bent(options.size, options.tile_x, options.tile_y, options.size) <= l.unseen_bend();
@@ -107,11 +98,6 @@ bool repeats_fit(const Appearance& appearance, const SynthesisOptions& options) 
   });
 }
 
-bool keeps_to_courses(const Lattice& lattice) {
-  return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&
-         lattice.first.norm() >= shared_work_tuning->shortest_course;
-}
-
 Size level_size(Size output, int level) {
   const int round_up = (1 << level) - 1;
   return {(output.width + round_up) >> level, (output.height + round_up) >> level};
@@ -122,7 +108,7 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       options(o),
       task(t),
       levels(int(index.levels().size())),
-      courses(single_courses(*index.appearance(), options)),
+      courses(courses_laid_anew(*index.appearance(), options)),
       repeats(repeats_of(*index.appearance(), courses, options)),
       lattice(repeats.lattice),
       bands(bands_in_result(courses, index.appearance()->size(), options)),
@@ -165,8 +151,6 @@ LevelFacts SharedWork::facts(int level) const {
           .kept = !options.kept.empty(),
           .steered = !controls.empty(),
           .bands = !bands.empty(),
-          .may_have_bricks = options.whole_bricks && repeats.parts.empty() &&
-                             (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),
           .elements = elements};
 }
 

@@ -5,13 +5,11 @@
 #include <ctime>
 #include <utility>
 
-#include "core/analysis/courses/coursing.h"
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/state/piece_limits.h"
 #include "core/synthesis/steps/band_layout.h"
 #include "core/synthesis/steps/correction.h"
-#include "core/synthesis/steps/course_layout.h"
 #include "core/synthesis/steps/element_cores.h"
 #include "core/synthesis/steps/element_layout.h"
 #include "core/synthesis/steps/graphcut_repair.h"
@@ -28,7 +26,7 @@ struct StepTuning {
   double landmark_coherence = 0.7;
   double stay_to_joints = 8;
   double stay_to_the_pixel = 32;
-  double stay_around_bricks = 1;
+  double stay_around_bands = 1;
   int landmark_levels = 2;
   int most_levels_of_small = 3;
   int finest_even = 1;
@@ -37,8 +35,7 @@ struct StepTuning {
   int last_repair = 2;
   int seam_reach_to_joints = 20;
   int seam_reach_to_the_pixel = 4;
-  int seam_reach_around_bricks = 8;
-  int seam_reach_around_clear_bricks = 2;
+  int seam_reach_around_bands = 2;
   int left_out = 0;
 };
 const Tunable<StepTuning> step_tuning(
@@ -56,7 +53,7 @@ const Tunable<StepTuning> step_tuning(
          "higher: seams stay nearer; lower: they go half a brick for a joint", "seams", 0, 10000},
         {&StepTuning::stay_to_the_pixel, "stay_to_the_pixel", "appearance units per pixel",
          "higher: seams stay; lower: they wander at the finest level", "seams", 0, 10000},
-        {&StepTuning::stay_around_bricks, "stay_around_bricks", "appearance units per pixel",
+        {&StepTuning::stay_around_bands, "stay_around_bands", "appearance units per pixel",
          "lower: seams find the joints that bricks were cut beside; higher: they keep to the cut",
          "What each rule decides", 0, 10000},
         {&StepTuning::landmark_levels, "landmark_levels", "levels",
@@ -76,10 +73,8 @@ const Tunable<StepTuning> step_tuning(
          "higher: joints of longer bricks are found; costs time", "seams", 0, 1000},
         {&StepTuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
          "higher: the finest level looks for other joints, not for where two meet; costs time", "seams", 0, 1000},
-        {&StepTuning::seam_reach_around_bricks, "seam_reach_around_bricks", "pixels",
-         "higher: joints that were missed are found; lower: boards keep no stubs of joints", "course_layout", 0, 1000},
-        {&StepTuning::seam_reach_around_clear_bricks, "seam_reach_around_clear_bricks", "pixels",
-         "the same where joints are clear, beside half a joint's breadth", "course_layout", 0, 1000},
+        {&StepTuning::seam_reach_around_bands, "seam_reach_around_bands", "pixels",
+         "higher: seams find joints that were missed; lower: boards keep no stubs of joints", "band_layout", 0, 1000},
         {&StepTuning::left_out, "left_out", "row of the table of steps, from 1",
          "this one does not run, to see what it brings and costs; 0: all run", "What each step brings"},
     });
@@ -115,12 +110,7 @@ bool keeps_pixels(const LevelFacts& f) {
   return f.kept;
 }
 
-/// Bricks are laid whole where only seams still move, before they look for the pixel.
-bool lays_courses(const LevelFacts& f) {
-  return f.may_have_bricks && !f.bands && !f.lays_elements() && f.level < finest_whole_level && moves_seams(f) &&
-         !f.steered && !f.kept;
-}
-
+/// Where only seams still move, before they look for the pixel.
 bool lays_bands(const LevelFacts& f) {
   return f.bands && f.level < finest_whole_level;
 }
@@ -172,24 +162,11 @@ void start_where_kept(StepContext& c) {
         c.field.at(column, row) = c.fixed.shown(2 * size_t(level.window.y(row)) * width + 2 * level.window.x(column));
 }
 
-/// Around whole bricks seams look for joints that bricks were cut beside. The clearer those are, the less far: boards
-/// would keep stubs of joints.
-void lay_whole_bricks(StepContext& c) {
-  const Appearance& appearance = *c.shared.index.appearance();
-  const Coursing coursing = find_coursing(appearance, c.task);
-  const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
-  if (!lay_courses(c.field, c.level, appearance, coursing, phase, c.task)) return;
-  const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
-  const int reach = step_tuning->seam_reach_around_bricks;
-  c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,
-                      .distance_penalty = step_tuning->stay_around_bricks};
-}
-
-void lay_single_courses(StepContext& c) {
+void lay_courses(StepContext& c) {
   lay_bands(c.field, c.level, *c.shared.index.appearance(), c.shared.courses, c.shared.bands, c.bits(Purpose::courses),
             c.task);
-  c.seams = SeamMoves{.reach = step_tuning->seam_reach_around_clear_bricks,
-                      .distance_penalty = step_tuning->stay_around_bricks};
+  c.seams =
+      SeamMoves{.reach = step_tuning->seam_reach_around_bands, .distance_penalty = step_tuning->stay_around_bands};
 }
 
 void lay_whole_elements(StepContext& c) {
@@ -259,10 +236,7 @@ const Step all_steps[] = {
     {"initialize", Phase::upsampling, "each pixel becomes four, with jitter and in phase with the lattice", always,
      upsample},
     {"fixed_pixels", Phase::upsampling, "kept pixels get their old content back", keeps_pixels, start_where_kept},
-    {"course_layout", Phase::upsampling, "courses are rebuilt from whole bricks and boards", lays_courses,
-     lay_whole_bricks},
-    {"band_layout", Phase::upsampling, "courses that come once are laid in random order", lays_bands,
-     lay_single_courses},
+    {"band_layout", Phase::upsampling, "courses of bricks, boards and panels are laid anew", lays_bands, lay_courses},
     {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes",
      [](const LevelFacts& f) { return f.lays_elements(); }, lay_whole_elements},
     {"element_cores", Phase::upsampling, "small tiles and bricks become whole where they lie",

@@ -30,7 +30,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 35;
+inline constexpr int synthesis_version = 36;
 
 /// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
 /// are: there bricks and elements are laid, and seams moved for the last time.
@@ -51,7 +51,7 @@ inline constexpr std::string_view phase_names[] = {"costs", "coarsest level", "u
 
 /// How the exemplar's elements become whole in the result, if that is asked for and it has enough of them.
 enum class WholeElements : uint8_t {
-  none,       ///< they do not, or as bricks of its courses
+  none,       ///< they do not, or as parts of its courses
   free,       ///< they are laid anywhere, or anywhere along its courses
   in_cells,   ///< they are laid in the cells of its lattice
   completed,  ///< they lie in such cells and are too small to be laid: they are completed where they lie
@@ -65,10 +65,7 @@ struct LevelFacts {
   bool regular = false;  ///< the exemplar has a lattice
   bool kept = false;     ///< some of the output's pixels are given (SynthesisOptions::kept)
   bool steered = false;  ///< controls say what goes where
-  bool bands = false;    ///< courses that the exemplar has once each are laid anew
-  /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
-  /// or of cells that are worth it.
-  bool may_have_bricks = false;
+  bool bands = false;    ///< the exemplar's courses are laid anew
   WholeElements elements = WholeElements::none;
 
   bool coarsest() const { return level == levels - 1; }
@@ -82,9 +79,6 @@ struct LevelFacts {
   bool makes_elements_whole() const;
   bool lays_elements() const { return makes_elements_whole() && elements != WholeElements::completed; }
 };
-
-/// Whether elements are better laid along such courses, as bricks, than as wholes.
-bool keeps_to_courses(const Lattice& lattice);
 
 /// How much work goes into a level.
 struct Effort {
@@ -103,6 +97,8 @@ int reach_of(int passes);
 /// How an exemplar repeats in a result: courses that come once each along them only, where they are laid anew, and not
 /// at all where controls say what goes where.
 Repeats repeats_in_result(const Appearance& appearance, const SynthesisOptions& options);
+/// Whether the exemplar's courses are laid anew.
+bool lays_courses(const Appearance& appearance, const SynthesisOptions& options);
 /// Whether a result that wraps shows them without bending them more than can be seen.
 bool repeats_fit(const Appearance& appearance, const SynthesisOptions& options);
 
@@ -124,9 +120,9 @@ struct SharedWork {
   const SynthesisOptions& options;
   const Task& task;
   int levels;
-  ElementCourses courses;  ///< of the exemplar, if it repeats as a whole only, or not surely, and they are laid anew
-  Repeats repeats;         ///< of the exemplar, as far as they count in the result
-  Lattice lattice;         ///< theirs
+  ElementCourses courses;        ///< of the exemplar, if they are laid anew
+  Repeats repeats;               ///< of the exemplar, as far as they count in the result
+  Lattice lattice;               ///< theirs
   std::vector<ShownSpan> bands;  ///< those courses, as the result shows them
   LatticeGaps gaps;              ///< between kept pixels
   Vector2d origin;               ///< where the lattice starts in the result

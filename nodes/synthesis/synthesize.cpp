@@ -42,8 +42,7 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
   const ElementsPtr& elements = appearance.elements();
   if (!elements || uv.size().area() < appearance.size().area()) return;
   if (!has_elements(appearance)) {
-    if (const Lattice lattice = repeats_in_result(appearance, options).lattice;
-        lattice.rank < 2 && !keeps_to_courses(lattice))
+    if (repeats_in_result(appearance, options).lattice.rank < 2 && !lays_courses(appearance, options))
       node.warn(
           fmt::format("the exemplar's border cuts all but {} of its {} elements, too few to be laid as wholes: "
                       "they may be torn or melted together. An exemplar that shows more of them, or that tiles, "

@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include "core/analysis/courses/coursing.h"
+#include "core/analysis/elements/find_elements.h"
 #include "core/analysis/space/appearance_space.h"
 #include "core/analysis/space/k_coherence.h"
 #include "core/analysis/space/weighting.h"
@@ -198,19 +198,10 @@ IndexPtr wall_of(int side) {
   const double course = side / 12.0;
   const FeaturesPtr features =
       weighted_features(*material, {{material->maps()[0].name, {1.0}}}, false)->with(Lattice{1, {0, course}, {}, 0.9});
-  index = make_index(make_appearance(*features, {}, {}, Task()), similar_per_pixel, Task());
+  const FeaturesPtr known = features->with(find_elements(*features, Task()));
+  index = make_index(make_appearance(*known, {}, {}, Task()), similar_per_pixel, Task());
   return index;
 }
-
-void coursing(benchmark::State& state) {
-  const IndexPtr index = wall_of(int(state.range(0)));
-  for (auto _ : state) {
-    const Coursing found = find_coursing(*index->appearance(), Task());
-    if (found.empty()) state.SkipWithError("no courses");
-  }
-  count_items(state, index->appearance()->size().area());
-}
-BENCHMARK(coursing)->RangeMultiplier(2)->Range(256, 2048)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 /// From 256x256 to a square of that side, without and with bricks laid whole.
 void wall(benchmark::State& state) {

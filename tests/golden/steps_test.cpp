@@ -67,7 +67,7 @@ std::vector<SteppedCase> stepped_cases() {
       {"draft", plain, {.size = size, .quality = Quality::draft}},
       {"small", wall_index(), {.size = {60, 44}}},
       {"lattice", indexed(plain_features(wall(wall_size))->with(lattice)), {.size = size}},
-      {"courses", indexed(plain_features(courses.image())->with(courses.lattice())), {.size = {200, 180}}},
+      {"courses", indexed(courses.features()), {.size = {200, 180}}},
       {"stones", indexed(known), {.size = {200, 180}}},
       {"tiles", DrawnTiles(10).index(true), {.size = {100, 90}}},
       {"grid", DrawnTiles(72).crooked().index(true), {.size = {200, 180}}},

@@ -21,12 +21,12 @@ std::vector<double> lengths_of(const std::vector<ExemplarSpan>& spans) {
 SpanOrder::SpanOrder(const std::vector<ExemplarSpan>& spans, const SpanLine& line, uint64_t bits)
     : spans_(spans), line_(line), random_(lengths_of(spans), bits) {}
 
-void SpanOrder::keep(int at, int shown) {
+void SpanOrder::keep(int at, int shown, const std::function<bool(size_t)>& may_be) {
   kept_at_.resize(size_t(line_.result), 0);
   kept_at_[size_t(at)]++;
   for (size_t k = 0; k < spans_.size(); k++)
     for (const int u : {shown, shown + line_.exemplar}) {
-      if (u < spans_[k].from || u >= spans_[k].to) continue;
+      if (u < spans_[k].from || u >= spans_[k].to || !may_be(k)) continue;
       const int begin = int(std::floor(at - (u - spans_[k].from) + 0.5));
       votes_[{int(k), line_.closed ? wrap(begin, line_.result) : begin}]++;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -24,8 +25,10 @@ class SpanOrder {
   /// `spans`: at least one, in ascending order.
   SpanOrder(const std::vector<ExemplarSpan>& spans, const SpanLine& line, uint64_t bits);
 
-  /// A pixel that is kept at `at`, along the axis, shows the exemplar's `shown`.
-  void keep(int at, int shown);
+  /// A pixel that is kept at `at`, along the axis, shows the exemplar's `shown`, if it lies in one of those spans of
+  /// which `may_be` tells by their numbers that it can be.
+  void keep(
+      int at, int shown, const std::function<bool(size_t)>& may_be = [](size_t) { return true; });
 
   /// Spans in ascending order that cover all of the result, around its border if it wraps: those that most of what is
   /// kept in their place shows, and others between and around them, each about as often as the others. Where the result

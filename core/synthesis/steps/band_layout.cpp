@@ -30,17 +30,24 @@ class BandLayout {
   }
 
   void lay(const std::vector<ShownSpan>& bands, const Task& task) {
-    std::vector<ShownSpan> before;
+    Course before;
     for (size_t i = 0; i < bands.size(); i++) {
       task.check();
-      std::vector<ShownSpan> pieces = pieces_of(bands[i], i, before);
-      show(bands[i], pieces);
-      before = std::move(pieces);
+      Course course = course_of(bands[i], i, before);
+      show(bands[i], course);
+      before = std::move(course);
       task.progress(double(i + 1) / double(bands.size()));
     }
   }
 
  private:
+  struct Course {
+    CoursePieces pool;
+    std::vector<ShownSpan> pieces;
+
+    const ExemplarSpan& band_of(const ShownSpan& piece) const { return pool.bands[size_t(piece.number)]; }
+  };
+
   /// Of one axis if courses lie, of the other if they stand.
   SpanLine line(int exemplar, int exemplar_if_upright, int result, int result_if_upright, bool closed,
                 bool closed_if_upright) const {
@@ -68,50 +75,59 @@ class BandLayout {
     return level_.is_fixed(int(i % width), int(i / width));
   }
 
-  /// Of several random orders the one whose joints meet those of the band before least.
-  std::vector<ShownSpan> pieces_of(const ShownSpan& band, size_t number, const std::vector<ShownSpan>& before) const {
+  /// Of several random orders the one that meets the band before least.
+  Course course_of(const ShownSpan& band, size_t number, const Course& before) const {
     constexpr int tries = 8;
+    Course out{courses_.pieces_for(band.shown), {}};
     std::vector<ShownSpan> best;
     double least = 0;
-    SpanOrder order(courses_.pieces[size_t(band.number)], along_, more_random_bits(bits_, number));
-    if (level_.fixed.any()) keep(order, band);
+    SpanOrder order(out.pool.pieces, along_, more_random_bits(bits_, number));
+    if (level_.fixed.any()) keep(order, band, out.pool);
     for (int i = 0; i < tries; i++) {
-      std::vector<ShownSpan> pieces = order.order();
-      const double met = meeting(pieces, before, (band.end - band.begin) / 2);
-      if (i == 0 || met < least) best = std::move(pieces);
+      out.pieces = order.order();
+      const double met = meeting(out, before, (band.end - band.begin) / 2);
+      if (i == 0 || met < least) best = std::move(out.pieces);
       least = i == 0 ? met : std::min(least, met);
       if (least == 0) break;
     }
-    return best;
+    out.pieces = std::move(best);
+    return out;
   }
 
-  void keep(SpanOrder& order, const ShownSpan& band) const {
+  void keep(SpanOrder& order, const ShownSpan& band, const CoursePieces& pool) const {
     const ShownSpan all{0, double(along_.result), 0, {}, 0};
     for_pixels(band, all, [&](int64_t i, int along, int) {
       if (!is_fixed(i)) return;
       const ExemplarPixel& p = field_.pixels[size_t(i)];
       const int across = courses_.upright ? p.x : p.y;
-      const auto shows = [&](int v) { return v >= band.shown.from && v < band.shown.to; };
-      if (shows(across) || shows(across + across_.exemplar)) order.keep(along, courses_.upright ? p.y : p.x);
+      order.keep(along, courses_.upright ? p.y : p.x, [&](size_t piece) {
+        const ExemplarSpan& of = pool.bands[piece];
+        const auto shows = [&](int v) { return v >= of.from && v < of.to; };
+        return shows(across) || shows(across + across_.exemplar);
+      });
     });
   }
 
-  /// How many joints meet, those less than `reach` apart in part.
-  double meeting(const std::vector<ShownSpan>& a, const std::vector<ShownSpan>& b, double reach) const {
+  /// How many joints meet, those less than `reach` apart in part, and how many pieces lie beside themselves.
+  double meeting(const Course& a, const Course& b, double reach) const {
     double sum = 0;
-    for (const ShownSpan& p : a)
-      for (const ShownSpan& q : b) {
+    for (const ShownSpan& p : a.pieces)
+      for (const ShownSpan& q : b.pieces) {
         const double d = std::abs(p.begin - q.begin), apart = along_.closed ? std::min(d, along_.result - d) : d;
         sum += std::max(0.0, 1 - apart / reach);
+        const bool same = p.shown == q.shown && a.band_of(p) == b.band_of(q);
+        sum += same && p.begin < q.end && q.begin < p.end;
       }
     return sum;
   }
 
-  void show(const ShownSpan& band, std::vector<ShownSpan>& pieces) {
-    for (ShownSpan& piece : pieces) {
-      if (piece.is_cut()) piece.cut = best_cut(band, piece);
+  void show(const ShownSpan& band, Course& course) {
+    for (ShownSpan& piece : course.pieces) {
+      const ExemplarSpan& of = course.band_of(piece);
+      if (piece.is_cut()) piece.cut = best_cut(of, piece);
+      const int beside = int(std::floor((of.from + of.to - band.shown.from - band.shown.to) / 2 + 0.5));
       for_pixels(band, piece, [&](int64_t i, int along, int across) {
-        int u = along + piece.shift(along), v = across + band.shift(across);
+        int u = along + piece.shift(along), v = across + band.shift(across) + beside;
         if (courses_.upright) std::swap(u, v);
         level_.exemplar.unwind(u, v);
         if (!is_fixed(i) && holds(u, v)) field_.pixels[size_t(i)] = {uint16_t(u), uint16_t(v)};
@@ -120,15 +136,14 @@ class BandLayout {
   }
 
   /// Where in its middle half the two parts of a piece meet in what looks most alike.
-  double best_cut(const ShownSpan& band, const ShownSpan& piece) const {
+  double best_cut(const ExemplarSpan& band, const ShownSpan& piece) const {
     const double length = piece.end - piece.begin;
     double best = piece.cut;
     int64_t least = std::numeric_limits<int64_t>::max();
     for (double cut = std::floor(piece.begin + length / 4); cut < piece.end - length / 4; cut++) {
       const int before = int(cut + piece.shown.from - piece.begin), after = int(cut + piece.shown.to - piece.end);
       int64_t unlike = 0;
-      for (int v = int(band.shown.from); v < int(band.shown.to); v++)
-        unlike += squared_distance(look(before, v), look(after, v));
+      for (int v = int(band.from); v < int(band.to); v++) unlike += squared_distance(look(before, v), look(after, v));
       if (unlike < least) best = cut;
       least = std::min(least, unlike);
     }

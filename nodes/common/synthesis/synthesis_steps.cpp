@@ -22,7 +22,7 @@ struct Situation {
 const std::vector<Situation>& situations() {
   static const std::vector<Situation> all = {{"without a lattice", {}},
                                              {"with a lattice", {.regular = true}},
-                                             {"with a lattice of bricks", {.regular = true, .may_have_bricks = true}},
+                                             {"with courses of elements", {.regular = true, .bands = true}},
                                              {"with kept pixels", {.kept = true}},
                                              {"with a target", {.steered = true}}};
   return all;

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "core/analysis/courses/coursing.h"
 #include "core/analysis/repeats/regularity.h"
 #include "core/base/hash.h"
 #include "tests/drawn_wall.h"
@@ -29,14 +28,12 @@ Digest cells() {
   return lattice_of(wall({96, 80}));
 }
 
-/// Courses, and the joints across them.
-Digest courses() {
-  const Coursing coursing = find_coursing(*DrawnWall({160, 150}).appearance(), Task());
+/// What pixels look like.
+Digest looks() {
+  const AppearancePtr appearance = DrawnWall({160, 150}).appearance();
   Hasher h;
-  for (const ExemplarCourse& c : coursing.courses) {
-    h.add(c.begin).add(c.end);
-    for (const float joint : c.joint) h.add(joint);
-  }
+  for (const AppearanceLevel& level : appearance->levels())
+    h.bytes(level.vectors.data(), level.vectors.size() * sizeof(level.vectors[0]));
   return h.digest();
 }
 
@@ -55,12 +52,7 @@ TEST_CASE("another value of a constant changes what is found of an exemplar, and
   for (const Found& found :
        {Found{bands, {{"bands.multiple", 4.5}, {"bands.deviations", 0.9}, {"lag_correlation.grain", 2}}},
         Found{cells, {{"cell_search.farthest", 2}, {"cell_search.same_area", 3}, {"near_peaks.most_peaks", 2}}},
-        Found{courses,
-              {{"coursing.smallest_period", 30},
-               {"bed_joints.unlike_sections", 2},
-               {"head_joints.surely_bed", 0},
-               {"planes.least_deviation", 1},
-               {"appearance_space.most_samples", 200}}}}) {
+        Found{looks, {{"planes.least_deviation", 1}, {"appearance_space.most_samples", 200}}}}) {
     const Digest usual = found.of();
     for (const Nudge& n : found.changed_by) {
       CAPTURE(std::string(n.name));

@@ -75,10 +75,11 @@ TEST_CASE("what lies side by side in two courses, or goes on over both, is not p
   for (size_t k = 0; k < 2; k++)
     for (const ExemplarSpan& piece : some.pieces[k]) CHECK((piece.to <= 128 || piece.from >= 135));
   // A rail without joints, or with one.
-  for (const int rail : {1, 240})
-    CHECK(element_courses(elements([&](int x, int y) { return y < 20 || y >= 160 ? 200 + (x < rail) : panels(x, y); }),
-                          true)
-              .empty());
+  const auto with_rail = [&](int joint) {
+    return elements([joint](int x, int y) { return y < 20 || y >= 160 ? 200 + (x < joint) : panels(x, y); });
+  };
+  CHECK(element_courses(with_rail(0), true).empty());
+  CHECK(element_courses(with_rail(120), true).bands.size() == 3);
   // Columns without joints across.
   CHECK(element_courses(elements([](int x, int) { return (x + 20) / 60; }), true).empty());
   CHECK(element_courses(Elements{size, std::vector<uint16_t>(size_t(size.area())), 1, 1}, true).empty());
@@ -102,5 +103,25 @@ TEST_CASE("of an exemplar that does not tile only what its border does not cut c
         CHECK(p.to < size.width);
         CHECK(std::abs(p.length() - 50) <= 1);
       }
+  }
+}
+
+TEST_CASE("what the far border cuts counts up to there where little else is whole") {
+  // One course of three is whole, and of two panels in each of them one or none.
+  const auto wall = [](int x, int y) {
+    const int course = y < 30 ? 0 : y < 90 ? 1 : 2;
+    return course * 100 + (x < 50 + 30 * course ? 0 : x < (course == 1 ? 400 : 180) ? 1 : 2);
+  };
+  for (const bool turned : {false, true}) {
+    const ElementCourses found = element_courses(elements(wall, turned), false);
+    REQUIRE(found.bands.size() == 2);
+    CHECK(std::abs(found.bands[0].from - 30) <= 1);
+    CHECK(found.bands[1].to == 180);
+    REQUIRE(found.pieces[0].size() == 1);
+    CHECK(std::abs(found.pieces[0][0].from - 80) <= 1);
+    CHECK(found.pieces[0][0].to == 240);
+    // The last 60 pixels are half as long as the first 110, and the whole panel has 70.
+    REQUIRE(found.pieces[1].size() == 2);
+    CHECK(found.pieces[1][1].to == 240);
   }
 }

@@ -134,3 +134,22 @@ TEST_CASE("torn elements are marked, whole and cut ones are not") {
   CHECK(marked > cell * cell / 3);
   CHECK(torn[size_t((torn_y * cell + cell / 2) * size.width + torn_x * cell + cell / 2)] == 1);
 }
+
+TEST_CASE("how many elements a result has is told by the size of those that the exemplar's border does not cut") {
+  // The grid starts half a tile off: 16 whole tiles within a rim of 20 cut ones.
+  constexpr int across = cells + 1;
+  Elements some{exemplar_size, {}, across * across, 1};
+  for (int y = 0; y < exemplar_size.height; y++)
+    for (int x = 0; x < exemplar_size.width; x++)
+      some.at.push_back(uint16_t((y + cell / 2) / cell * across + (x + cell / 2) / cell));
+  CHECK(whole_elements(some, false) == 16);
+  CHECK(whole_elements(some, true) == 36);
+  const Size size{8 * cell, 6 * cell};
+  std::vector<ExemplarPixel> pixels;
+  const auto in_whole = [](int at) { return uint16_t(cell / 2 + at % (4 * cell)); };
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) pixels.push_back({in_whole(x), in_whole(y)});
+  const ShownElements shown = shown_elements(*UvMap::make(size, exemplar_size, std::move(pixels), {}), some, {});
+  CHECK(shown.whole == 48);
+  CHECK(shown.all == 48);
+}

@@ -1,18 +1,22 @@
 #include "core/synthesis/steps/band_layout.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include "core/metrics/whole_elements.h"
 #include "core/synthesis/synthesize.h"
 #include "tests/drawn_panels.h"
+#include "tests/drawn_wall.h"
 
 using namespace terrazzo;
 using test::DrawnPanels;
+using test::DrawnWall;
 
 namespace {
 
@@ -105,4 +109,75 @@ TEST_CASE("around kept pixels courses and panels go on") {
   for (int y = 0; y < small.height; y++)
     for (int x = 0; x < small.width; x++) REQUIRE(uv->at(x + left, y + top) == first->at(x, y));
   CHECK(whole_share(*uv, *appearance) > 0.95);
+}
+
+TEST_CASE("bricks of a wall are whole in what is made of it, lying and standing") {
+  for (const bool upright : {false, true}) {
+    CAPTURE(upright);
+    const AppearancePtr appearance = DrawnWall({240, 220}, upright).appearance();
+    const IndexPtr index = make_index(appearance, 3, task);
+    SynthesisOptions options{.size = {480, 480}, .seed = 1};
+    CHECK(whole_share(*synthesize(*index, options, task), *appearance) > 0.9);
+    // What the figure is worth: they need not be laid, and in drafts are not.
+    options.whole_bricks = false;
+    CHECK(whole_share(*synthesize(*index, options, task), *appearance) < 0.7);
+    options = {.size = {480, 480}, .seed = 1, .quality = Quality::draft};
+    CHECK(whole_share(*synthesize(*index, options, task), *appearance) < 0.7);
+    options = {.size = {433, 480}, .seed = 2, .tile_x = true, .tile_y = true};
+    CHECK(whole_share(*synthesize(*index, options, task), *appearance) > 0.9);
+  }
+}
+
+TEST_CASE("a course takes bricks from all courses as high as it is, and no brick takes over or lies beside itself") {
+  const DrawnWall wall({240, 220});
+  const UvMapPtr uv = synthesize(*make_index(wall.appearance(), 3, task), {.size = {480, 480}, .seed = 4}, task);
+  std::map<int, int> use;
+  int beside = 0;
+  double courses = 0;
+  for (int y = 0; y < 480; y++) {
+    std::set<int> from;
+    for (int x = 0; x < 480; x++) {
+      const ExemplarPixel p = uv->at(x, y);
+      const int brick = wall.brick(p.x, p.y);
+      use[brick]++;
+      from.insert(brick / 1000);
+      if (brick == DrawnWall::no_brick || y + DrawnWall::course >= 480) continue;
+      const ExemplarPixel below = uv->at(x, y + DrawnWall::course);
+      beside += wall.brick(below.x, below.y) == brick;
+    }
+    courses += double(from.size()) / 480;
+  }
+  CHECK(courses > 4);
+  CHECK(beside < 480 * 480 / 50);
+  use.erase(DrawnWall::no_brick);
+  int most = 0;
+  for (const auto& [brick, count] : use) most = std::max(most, count);
+  CHECK(use.size() > 20);
+  CHECK(most < 480 * 480 / 15);
+}
+
+TEST_CASE("laid bricks are the same on any number of threads") {
+  const IndexPtr index = make_index(DrawnWall({240, 220}).appearance(), 3, task);
+  std::set<Digest> digests;
+  for (const int threads : {1, 2, 4})
+    tbb::task_arena(threads).execute([&] {
+      digests.insert(synthesize(*index, {.size = {301, 347}, .seed = 3, .tile_y = true}, task)->digest());
+    });
+  CHECK(digests.size() == 1);
+}
+
+TEST_CASE("sizes smaller than a brick, and masks, do no harm") {
+  const DrawnWall wall({240, 220});
+  const IndexPtr index = make_index(wall.appearance(), 3, task);
+  for (const Size size : {Size{1, 1}, Size{17, 300}, Size{300, 5}, Size{61, 47}})
+    for (const bool wraps : {false, true})
+      CHECK(synthesize(*index, {.size = size, .seed = 5, .tile_x = wraps, .tile_y = wraps}, task)->size() == size);
+
+  // Only the right half may be shown.
+  const ImagePtr mask = test::make_image(wall.size(), 1, [](int x, int, int) { return x >= 120 ? 1.0f : 0.0f; });
+  const FeaturesPtr masked = Features::make(wall.size(), {{wall.image(), {1, 1, 1}}}, false, wall.lattice(), mask,
+                                            wall.features()->elements());
+  const UvMapPtr uv =
+      synthesize(*make_index(make_appearance(*masked, {}, {}, task), 3, task), {.size = {300, 200}, .seed = 5}, task);
+  for (const ExemplarPixel p : uv->pixels()) REQUIRE(p.x >= 120);
 }

@@ -126,22 +126,6 @@ TEST_CASE("elements of a lattice are rigid, however crooked their borders were f
   CHECK(in_phase > 0.99 * 520 * 500);
 }
 
-TEST_CASE("elements in straight courses that surely repeat keep to those, unless they are very low") {
-  const DrawnStones stones(exemplar);
-  const SynthesisOptions options{.size = {300, 280}, .seed = 1};
-  const auto are_laid = [&](double height, double certainty) {
-    const FeaturesPtr coursed = plain_features(stones.image(), true)->with(Lattice{1, {0, height}, {}, certainty});
-    const FeaturesPtr known = coursed->with(std::make_shared<const Elements>(stones.elements()));
-    const auto pixels = [&](const Features& f) {
-      return made(*make_index(make_appearance(f, {}, {}, task), 3, task), options)->pixels();
-    };
-    return pixels(*known) != pixels(*coursed);
-  };
-  CHECK_FALSE(are_laid(40, 0.95));
-  CHECK(are_laid(40, 0.6));
-  CHECK(are_laid(12, 0.95));
-}
-
 namespace {
 
 /// Courses of two heights in turn, of stones of all lengths.
