@@ -10,12 +10,15 @@ namespace terrazzo {
 /// proportions. Throws Cancelled.
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task);
 
-/// Bidirectional patch similarity (Simakov et al. 2008), in units of the mean distance between exemplar patches.
+/// Bidirectional patch similarity (Simakov et al. 2008), in units of the mean distance between exemplar patches: of
+/// each to the nearest that is at least `step` pixels away in one direction.
 struct PatchSimilarity {
   double coherence = 0;     ///< mean distance of an output patch to its nearest exemplar patch
   double completeness = 0;  ///< mean distance of an exemplar patch to its nearest output patch
   double broken = 0;        ///< share of output patches farther from the exemplar than 95 % of its own patches
 };
-PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task);
+/// `step`: of the samples of a patch; images smoothed for a reduction by it are compared as if they were reduced, but
+/// at all pixels. Throws Cancelled.
+PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, int step, const Task& task);
 
 }  // namespace terrazzo

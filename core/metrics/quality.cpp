@@ -17,6 +17,7 @@ namespace terrazzo {
 namespace {
 
 constexpr int patch_levels = 3;
+constexpr double pyramid_sigma = 0.9;  ///< of gaussian_pyramid
 
 int level_count(const Planes& exemplar, const Planes& output) {
   int side = std::min({exemplar.size.width, exemplar.size.height, output.size.width, output.size.height});
@@ -101,6 +102,22 @@ double structure_of(const Pyramids& pyramids, const QualityParts& parts, const T
   return foreign_structure(pyramids.exemplar[w.level], pyramids.output[w.level], w.step, wraps, task);
 }
 
+/// On several levels. A reduced image shows a whole piece only if it lies at the right pixel, so these are smoothed for
+/// a reduction, but keep all pixels.
+void add_patch_similarity(Planes exemplar, Planes output, int levels, QualityFigures& q, const Task& task) {
+  for (int i = 0; i < levels; i++) {
+    const int step = 1 << i;
+    if (i > 0)
+      for (Planes* image : {&exemplar, &output})
+        *image = blurred(*image, pyramid_sigma * step / 2, Beyond::mirrored, task);
+    const PatchSimilarity s = patch_similarity(exemplar, output, step, task);
+    q.coherence += s.coherence / levels;
+    q.completeness += s.completeness / levels;
+    q.broken += s.broken / levels;
+    task.progress(0.7 + 0.3 * (i + 1) / levels);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> compared_maps(const Material& exemplar, const Material& output,
@@ -145,8 +162,8 @@ QualityFigures measure_quality(Planes exemplar, Planes output, const QualityPart
   q.repeat = repetition(exemplar, output, task);
   task.progress(0.2);
   const int levels = level_count(exemplar, output);
-  const Pyramids pyramids{gaussian_pyramid(std::move(exemplar), levels, task),
-                          gaussian_pyramid(std::move(output), levels, task)};
+  Pyramids pyramids{gaussian_pyramid(std::move(exemplar), levels, task),
+                    gaussian_pyramid(std::move(output), levels, task)};
   const std::vector<Planes>&e = pyramids.exemplar, &o = pyramids.output;
   const int half = std::min(1, levels - 1), compared = std::min(patch_levels, levels);
   if (parts.verbatim) q.verbatim = verbatim_copies(e[half], o[half], task);
@@ -155,14 +172,9 @@ QualityFigures measure_quality(Planes exemplar, Planes output, const QualityPart
   task.progress(0.4);
   for (int i = 0; i < levels; i++) q.swd += sliced_wasserstein(e[i], o[i], task) / levels;
   task.progress(0.6);
-  for (int i = 0; i < compared; i++) {
-    const PatchSimilarity s = patch_similarity(e[i], o[i], task);
-    q.coherence += s.coherence / compared;
-    q.completeness += s.completeness / compared;
-    q.broken += s.broken / compared;
-    q.cooccurrence += cooccurrence_distance(e[i], o[i], task) / compared;
-    task.progress(0.6 + 0.4 * (i + 1) / compared);
-  }
+  for (int i = 0; i < compared; i++) q.cooccurrence += cooccurrence_distance(e[i], o[i], task) / compared;
+  task.progress(0.7);
+  add_patch_similarity(std::move(pyramids.exemplar[0]), std::move(pyramids.output[0]), compared, q, task);
   return q;
 }
 

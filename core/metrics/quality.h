@@ -14,7 +14,7 @@ namespace terrazzo {
 struct QualityFigures {
   double swd = 0;           ///< see sliced_wasserstein; mean over a Gaussian pyramid
   double cooccurrence = 0;  ///< see cooccurrence_distance; mean over up to 3 levels
-  double coherence = 0;     ///< see PatchSimilarity; mean over up to 3 levels
+  double coherence = 0;     ///< see PatchSimilarity; mean over up to 3 scales, at all pixels
   double completeness = 0;
   double broken = 0;
   double structure = 0;  ///< see foreign_structure; in windows of a third to a half of an element

@@ -206,7 +206,7 @@ size_t memory_of_compare(const NodeContext& node) {
     const Size size = material->size();
     const size_t measured = size_t(std::min(size.width, largest_measured)) * std::min(size.height, largest_measured);
     // Stacked and filtered channels as floats, and two complex grids of four times the area.
-    pixels += measured * (3 * 4 * 3 * material->maps().size() + 2 * 16 * 4);
+    pixels += measured * (3 * 4 * 4 * material->maps().size() + 2 * 16 * 4);
   }
   return pixels;
 }
@@ -228,7 +228,7 @@ std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, 
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 6;
+  t.version = 7;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
