@@ -1,11 +1,8 @@
 // Scores graphs/texture.json on many exemplars; tests/bench/quality builds and starts this.
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -24,23 +21,18 @@ constexpr int sheet_side = 1600;
 /// Rows by exemplar, then by tool.
 using Scores = std::map<std::string, std::map<std::string, Row>>;
 
-/// A table "exemplar,tool,figure...", if there is one.
-Scores read_peers(const fs::path& file) {
-  Scores scores;
-  std::ifstream in(file);
-  std::vector<std::string> names;
-  for (std::string line; std::getline(in, line);) {
-    std::vector<std::string> cells;
-    std::istringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    for (size_t i = 2; i < std::min(cells.size(), names.size()); i++)
-      scores[cells[0]][cells[1]][names[i]] = std::strtod(cells[i].c_str(), nullptr);
-  }
-  return scores;
+/// The tools whose results are in the folder of peers.
+std::vector<std::string> tools_in(const fs::path& peers) {
+  std::vector<std::string> tools;
+  if (fs::is_directory(peers))
+    for (const auto& entry : fs::directory_iterator(peers))
+      if (entry.is_directory() && entry.path().filename() != "exemplars256") tools.push_back(entry.path().filename());
+  std::sort(tools.begin(), tools.end());
+  return tools;
+}
+
+fs::path peer_result(const fs::path& peers, const std::string& tool, const Case& c) {
+  return peers / tool / (c.name + ".png");
 }
 
 void print_row(const std::string& name, const std::string& tool, const Row& row) {
@@ -70,7 +62,7 @@ std::vector<ImagePtr> sheet_row(const Case& c, const Result& result, const fs::p
                                 const std::vector<std::string>& tools) {
   std::vector<ImagePtr> row = {result.exemplar};
   for (const std::string& tool : tools) {
-    const fs::path path = peers / tool / (c.name + ".png");
+    const fs::path path = peer_result(peers, tool, c);
     row.push_back(fs::exists(path) ? read(path) : nullptr);
   }
   row.push_back(result.output);
@@ -81,17 +73,11 @@ int score_all(const Program& program, const fs::path& exemplars, const fs::path&
               const std::vector<std::string>& only) {
   constexpr int seed = 1;
   const fs::path peers = exemplars / "../peers";
-  const Scores peer_scores = read_peers(peers / "scores.csv");
   std::vector<Case> cases = find_cases(program, exemplars, peers, out);
   if (!only.empty())
     std::erase_if(cases, [&](const Case& c) { return std::find(only.begin(), only.end(), c.name) == only.end(); });
   if (cases.empty()) throw Error(fmt::format("none of these exemplars is in {}", exemplars.string()));
-  std::map<std::string, bool> tool_names;
-  for (const Case& c : cases)
-    if (const auto at = peer_scores.find(c.name); at != peer_scores.end())
-      for (const auto& [tool, row] : at->second) tool_names[tool] = true;
-  std::vector<std::string> tools;
-  for (const auto& [tool, present] : tool_names) tools.push_back(tool);
+  const std::vector<std::string> tools = tools_in(peers);
 
   fmt::print("{:<38} {:<11}", "exemplar", "tool");
   for (const Column& c : columns()) fmt::print(" {:>9}", c.name);
@@ -102,7 +88,9 @@ int score_all(const Program& program, const fs::path& exemplars, const fs::path&
   for (const Case& c : cases) {
     try {
       const Result result = synthesize(c, program, seed, out / "results" / c.name);
-      if (const auto at = peer_scores.find(c.name); at != peer_scores.end()) scores[c.name] = at->second;
+      for (const std::string& tool : tools)
+        if (const fs::path path = peer_result(peers, tool, c); fs::exists(path))
+          scores[c.name][tool] = scored(result.exemplar, read(path));
       scores[c.name]["terrazzo"] = result.row;
       for (const auto& [tool, row] : scores[c.name]) print_row(c.name, tool, row);
       std::fflush(stdout);

@@ -146,6 +146,14 @@ std::vector<Case> find_cases(const Program& program, const fs::path& exemplars, 
   return cases;
 }
 
+Row scored(const ImagePtr& exemplar, const ImagePtr& output) {
+  ComparedPlanes planes = compared_planes(*Material::of(exemplar), *Material::of(output), {});
+  const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
+  Row row;
+  for (const Column& column : columns()) row[column.name] = q.*column.figure;
+  return row;
+}
+
 Result synthesize(const Case& c, const Program& program, int seed, const fs::path& folder) {
   Result result{.exemplar = read(c.image), .output = nullptr, .row = {}};
   const Size size{2 * result.exemplar->width(), 2 * result.exemplar->height()};
@@ -159,11 +167,10 @@ Result synthesize(const Case& c, const Program& program, int seed, const fs::pat
     command.push_back(word);
   const double before = seconds_of_programs();
   run(command);
-  result.row["seconds"] = seconds_of_programs() - before;
+  const double seconds = seconds_of_programs() - before;
   result.output = read(result_in(folder));
-  ComparedPlanes planes = compared_planes(*Material::of(result.exemplar), *Material::of(result.output), {});
-  const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
-  for (const Column& column : columns()) result.row[column.name] = q.*column.figure;
+  result.row = scored(result.exemplar, result.output);
+  result.row["seconds"] = seconds;
   return result;
 }
 

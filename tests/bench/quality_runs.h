@@ -19,8 +19,8 @@ struct Column {
 };
 const std::vector<Column>& columns();
 
-/// One row of a table: figures by the names of columns, and the "seconds" of CPU time that the run took. Figures that
-/// are not known are left out.
+/// One row of a table: figures by the names of columns, and the "seconds" of CPU time that the run took, if it is
+/// known.
 using Row = std::map<std::string, double>;
 
 struct Case {
@@ -43,6 +43,9 @@ void write(const ImagePtr& image, const std::filesystem::path& path);
 /// `out`. If there is no such folder, every pattern that the program generates. Throws Error if there are none.
 std::vector<Case> find_cases(const Program& program, const std::filesystem::path& exemplars,
                              const std::filesystem::path& peers, const std::filesystem::path& out);
+
+/// All columns of a result.
+Row scored(const ImagePtr& exemplar, const ImagePtr& output);
 
 struct Result {
   ImagePtr exemplar, output;
