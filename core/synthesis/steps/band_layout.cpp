@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/base/hash.h"
@@ -35,6 +36,7 @@ class BandLayout {
       task.check();
       Course course = course_of(bands[i], i, before);
       show(bands[i], course);
+      for (const ShownSpan& piece : course.pieces) used_[course.name_of(piece)]++;
       before = std::move(course);
       task.progress(double(i + 1) / double(bands.size()));
     }
@@ -46,6 +48,8 @@ class BandLayout {
     std::vector<ShownSpan> pieces;
 
     const ExemplarSpan& band_of(const ShownSpan& piece) const { return pool.bands[size_t(piece.number)]; }
+    /// The same for the same piece in all courses.
+    std::pair<double, double> name_of(const ShownSpan& piece) const { return {band_of(piece).from, piece.shown.from}; }
   };
 
   /// Of one axis if courses lie, of the other if they stand.
@@ -75,9 +79,9 @@ class BandLayout {
     return level_.is_fixed(int(i % width), int(i / width));
   }
 
-  /// Of several random orders the one that meets the band before least.
+  /// Of several random orders the one that meets the band before least, and shows what was shown least.
   Course course_of(const ShownSpan& band, size_t number, const Course& before) const {
-    constexpr int tries = 8;
+    constexpr int tries = 16;
     Course out{courses_.pieces_for(band.shown), {}};
     std::vector<ShownSpan> best;
     double least = 0;
@@ -85,7 +89,7 @@ class BandLayout {
     if (level_.fixed.any()) keep(order, band, out.pool);
     for (int i = 0; i < tries; i++) {
       out.pieces = order.order();
-      const double met = meeting(out, before, (band.end - band.begin) / 2);
+      const double met = meeting(out, before, (band.end - band.begin) / 2) + unevenness(out);
       if (i == 0 || met < least) best = std::move(out.pieces);
       least = i == 0 ? met : std::min(least, met);
       if (least == 0) break;
@@ -115,9 +119,21 @@ class BandLayout {
       for (const ShownSpan& q : b.pieces) {
         const double d = std::abs(p.begin - q.begin), apart = along_.closed ? std::min(d, along_.result - d) : d;
         sum += std::max(0.0, 1 - apart / reach);
-        const bool same = p.shown == q.shown && a.band_of(p) == b.band_of(q);
-        sum += same && p.begin < q.end && q.begin < p.end;
+        sum += a.name_of(p) == b.name_of(q) && p.begin < q.end && q.begin < p.end;
       }
+    return sum;
+  }
+
+  /// How often its pieces have been shown, more than all that could be in the mean.
+  double unevenness(const Course& course) const {
+    const auto used = [&](const std::pair<double, double>& name) {
+      const auto found = used_.find(name);
+      return found == used_.end() ? 0.0 : double(found->second);
+    };
+    double mean = 0, sum = 0;
+    for (size_t k = 0; k < course.pool.pieces.size(); k++)
+      mean += used({course.pool.bands[k].from, course.pool.pieces[k].from}) / double(course.pool.pieces.size());
+    for (const ShownSpan& piece : course.pieces) sum += std::max(0.0, used(course.name_of(piece)) - mean);
     return sum;
   }
 
@@ -163,6 +179,7 @@ class BandLayout {
   uint64_t bits_;
   bool tiles_;
   SpanLine along_, across_;
+  std::map<std::pair<double, double>, int> used_;  // how often each piece has been shown
 };
 
 }  // namespace
