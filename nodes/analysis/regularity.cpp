@@ -143,7 +143,7 @@ std::vector<std::string> check_regularity(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 22;
+  t.version = 23;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

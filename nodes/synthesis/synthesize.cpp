@@ -5,6 +5,7 @@
 #include "core/analysis/space/appearance_space.h"
 #include "core/exemplar/element_lattice.h"
 #include "core/image/image_facts.h"
+#include "core/metrics/long_lines.h"
 #include "core/metrics/whole_elements.h"
 #include "core/synthesis/steps.h"
 #include "core/synthesis/steps/element_layout.h"
@@ -66,6 +67,16 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
     node.note(fmt::format("{}; they show {} different ones", counts, shown.distinct));
 }
 
+/// Warns of a result in which joints and edges end that go on in the exemplar. Unlike elements, they are always known.
+void tell_of_lines(NodeContext& node, const Index& index, const UvMap& uv) {
+  const LongLines lines = long_lines(uv, *index.appearance(), node.task());
+  if (lines.are_broken())
+    node.warn(fmt::format(
+        "straight joints or edges are broken: of those that go on along half of the exemplar, {:.0f} % do so here. An "
+        "exemplar that shows more of its panels, or that tiles, helps",
+        100 * lines.kept));
+}
+
 void compute_synthesize(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto coarse = node.optional_input<UvMap>("coarse");
@@ -80,6 +91,7 @@ void compute_synthesize(NodeContext& node) {
   tell_of_parts(node, *index, *uv, part.is_whole());
   warn_of_less_surface(node, *index, part.surface);
   if (options.quality != Quality::draft) tell_of_elements(node, *index, options, *uv);  // a draft lays none
+  tell_of_lines(node, *index, *uv);
   node.output("uv", uv);
 }
 

@@ -194,12 +194,23 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     if (const Lattice bond = bond_of(largest.planes, best, task); bond.certainty >= least_certainty) best = bond;
   FoundLattice out;
   out.too_few = best.rank < 2 && !wraps && std::ranges::any_of(edges, lines_cross);
+  const Size size{largest.seen.width, largest.seen.height};
+  const auto in_exemplar = [&](Lattice l) {
+    for (Vector2d* v : {&l.first, &l.second}) *v *= largest.scale;
+    return l.fitted(size, wraps, wraps);
+  };
+  // Of two courses, or columns, the joints across one are about half the exemplar long.
+  const int bands =
+      best.rank == 1
+          ? int((best.first.x() == 0 ? largest.planes.size.height : largest.planes.size.width) / best.first.sum() + 0.5)
+          : 0;
+  if (best.rank < 2 && wraps && bands != 2)
+    if (const Lattice l = lattice_of_crossing_lines(largest.planes, edges.front(), task); l.rank > 0)
+      out.crossing = in_exemplar(l);
   out.has_lines = best.rank > 0 || std::ranges::any_of(edges, has_lines);
   out.lattice = best;
   if (best.rank == 0) return out;
-  for (Vector2d* v : {&best.first, &best.second}) *v *= largest.scale;
-  const Size size{largest.seen.width, largest.seen.height};
-  best = best.fitted(size, wraps, wraps);
+  best = in_exemplar(best);
   if (best.rank == 2 && best.cell_area() < regularity_tuning->smallest_cell * regularity_tuning->smallest_cell)
     best = two_by_two(best, size, wraps);
   out.lattice = best;
@@ -239,9 +250,12 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
 
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
   const Planes planes = weighted_planes(features, task);
-  const FoundLattice found =
+  FoundLattice found =
       find_lattice({view_of(planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
-  return found.has_lines && features.wraps() ? told_by_few_elements(features, found, task) : found;
+  if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
+  if (found.lattice.rank > 1 || found.crossing.rank == 0 || features.mask()) return found;
+  found.lattice = found.crossing;
+  return told_by_few_elements(features, found, task);
 }
 
 }  // namespace terrazzo

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/tuning.h"
+#include "core/image/line_changes.h"
 
 namespace terrazzo {
 
@@ -24,6 +25,8 @@ struct StraightLinesTuning {
   double least_missed = 0.05;
   double least_sharp = 0.02;
   double nearly_all = 0.6;
+  double least_lasting = 0.04;
+  double least_straight = 0.3;
   int most_repeats = 8;
 };
 const Tunable<StraightLinesTuning> straight_lines_tuning(
@@ -70,6 +73,14 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
         {&StraightLinesTuning::nearly_all, "nearly_all", "share of the variance",
          "that bands which come once hold. Higher: painted stripes are cut; lower: rock with a dark edge comes in rows",
          "regularity", 0, 1},
+        {&StraightLinesTuning::least_lasting, "least_lasting", "share of all changes",
+         "that stay along half of the exemplar, in both directions, if long lines cross. Higher: unequal panels are "
+         "torn; lower: courses of a few bricks are repeated",
+         "long_lines", 0, 1},
+        {&StraightLinesTuning::least_straight, "least_straight", "share of the changes along short runs",
+         "that stay along those of half the exemplar, if lines are straight. Higher: unequal panels are torn; lower: "
+         "clouds and blobs are repeated",
+         "long_lines", 0, 1},
         {&StraightLinesTuning::most_repeats, "most_repeats", "lines in an exemplar",
          "higher: narrower lines are found to repeat; lower: less chance", "What each rule decides"},
     });
@@ -190,7 +201,9 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
     const bool bond =
         recur && rows.count() % 2 == 0 && columns.count() % 2 == 0 &&
         std::min(joints.at(right), joints.at(down)) < straight_lines_tuning->same_step * joints.at(diagonal);
-    return {2, bond ? Vector2d(2 * right) : right, bond ? diagonal : down, both};
+    // Thin joints that recur are as sure as others must be.
+    const double certainty = std::max(both, straight_lines_tuning->least_crossing);
+    return {2, bond ? Vector2d(2 * right) : right, bond ? diagonal : down, certainty};
   }
   const StraightLines& lines = courses ? rows : columns;
   if (lines.share < straight_lines_tuning->least_parallel) return {};
@@ -198,6 +211,17 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
   const double period = courses ? found.first.y() : found.first.x();
   if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > most_unlike(lines))) return {};
   return {1, courses ? down : right, {}, lines.share};
+}
+
+Lattice lattice_of_crossing_lines(const Planes& planes, const Planes& outlines, const Task& task) {
+  const int side = std::min(planes.size.width, planes.size.height);
+  const LineChanges rows = line_changes(planes, true, side, task), columns = line_changes(planes, false, side, task);
+  const double least = straight_lines_tuning->least_lasting * (rows.single + columns.single);
+  for (const LineChanges& c : {rows, columns})
+    if (c.lasting <= least || c.lasting < straight_lines_tuning->least_straight * c.brief) return {};
+  const StraightLines down = straight_lines_of(outlines, true), along = straight_lines_of(outlines, false);
+  if (std::min(down.sharp, along.sharp) < straight_lines_tuning->least_sharp) return {};
+  return {2, {along.period, 0}, {0, down.period}, 1};
 }
 
 Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines, const Lattice& found,

@@ -183,3 +183,20 @@ TEST_CASE("elements cut in phase with cells that bring their joints together are
   CHECK(made(16).says("the others are torn or melted together"));
   CHECK_FALSE(made(24).says("the others are torn or melted together"));
 }
+
+TEST_CASE("joints that end in a result are told of, unless a lattice keeps them whole") {
+  // Unequal panels: joints that run through a part of the exemplar only, and two all along it.
+  const ImagePtr panels = make_image({128, 128}, 1, [](int x, int y, int) {
+    const bool middle = (x > 20 && x < 100) != (y > 30 && y < 90);
+    const bool joint = y < 2 || x < 2 || (middle ? (y + 7) % 50 < 2 : (x + 30) % 70 < 2);
+    return joint ? 0.F : float(0.4 + 0.6 * unit_double(random_bits(3, x, y)));
+  });
+  const auto says_so = [&](const Lattice& lattice) {
+    const FeaturesPtr features = plain_features(panels, true)->with(Repeats(lattice));
+    const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+    const NodeRun made = run_node("synthesize", {{"size", Size{256, 256}}, {"seed", 2}}, {{"index", {index}}});
+    return made.says("straight joints or edges are broken");
+  };
+  CHECK(says_so({}));
+  CHECK_FALSE(says_so({2, {128, 0}, {0, 128}, 1}));
+}

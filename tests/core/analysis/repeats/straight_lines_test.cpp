@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -187,4 +188,61 @@ TEST_CASE("boards between posts are told of, boards from border to border are no
     CHECK(found.lattice.rank == 1);
     CHECK(found.too_few == posts);
   }
+}
+
+TEST_CASE("unequal panels between joints that run half the exemplar in both directions are one cell") {
+  // Joints at (from, to) along and at a place across, of the panels and of courses of bricks of any length.
+  struct Joint {
+    bool level;
+    int at, from, to;
+  };
+  const auto find = [](const std::vector<Joint>& joints) {
+    return find_lattice(*plain_features(make_image({192, 192}, 1,
+                                                   [&](int x, int y, int) {
+                                                     const double grain = 0.3 * unit_double(random_bits(4, x, y));
+                                                     for (const Joint& j : joints) {
+                                                       const int across = j.level ? y : x, along = j.level ? x : y;
+                                                       if (across >= j.at && across < j.at + 4 && along >= j.from &&
+                                                           along < j.to)
+                                                         return float(0.1 + grain);
+                                                     }
+                                                     return float(0.6 + grain);
+                                                   }),
+                                        true),
+                        0.08, Task())
+        .lattice;
+  };
+  const Lattice panels = find({{true, 10, 0, 192},
+                               {true, 78, 30, 150},
+                               {true, 131, 0, 96},
+                               {false, 30, 10, 131},
+                               {false, 96, 78, 192},
+                               {false, 150, 10, 192},
+                               {false, 121, 78, 192}});
+  CHECK(panels.is_single_cell({192, 192}));
+  std::vector<Joint> courses;
+  for (int course = 0; course < 8; course++) {
+    courses.push_back({true, 24 * course, 0, 192});
+    for (int x = 7 * course; x < 192; x += 30 + int(random_bits(8, x, course) % 50))
+      courses.push_back({false, x, 24 * course, 24 * course + 24});
+  }
+  const Lattice wall = find(courses);
+  CHECK(wall.rank == 1);
+  CHECK(wall.first.y() == doctest::Approx(24));
+}
+
+TEST_CASE("tiles of which the joints along one axis are faint are no courses") {
+  const FeaturesPtr tiles =
+      plain_features(make_image({192, 192}, 1,
+                                [](int x, int y, int) {
+                                  double grain = 0;
+                                  for (int k = 0; k < 9; k++)
+                                    grain += unit_double(random_bits(6, (x + k % 3) / 3, (y + k / 3) / 3)) / 9;
+                                  return float(0.5 + grain - (y % 48 < 3 ? 0.7 : x % 48 < 3 ? 0.25 : 0));
+                                }),
+                     true);
+  const Lattice found = find_lattice(*tiles, 0.08, Task()).lattice;
+  REQUIRE(found.rank == 2);
+  CHECK(repeats_by(found, 192, 0));
+  CHECK(repeats_by(found, 0, 48));
 }

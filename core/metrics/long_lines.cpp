@@ -1,0 +1,85 @@
+#include "core/metrics/long_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "core/base/tuning.h"
+#include "core/image/line_changes.h"
+
+namespace terrazzo {
+
+namespace {
+
+struct LongLinesTuning {
+  double least_share = 0.06;
+  double least_kept = 0.62;
+};
+const Tunable<LongLinesTuning> long_lines_tuning(
+    "long_lines",
+    {{&LongLinesTuning::least_share, "least_share", "share of all changes",
+      "that long lines must hold to be missed. Higher: broken ones pass; lower: scratches and grain count",
+      "long_lines", 0, 1},
+     {&LongLinesTuning::least_kept, "least_kept", "share of what the exemplar has",
+      "below which lines are broken. Higher: good results are doubted; lower: torn ones pass", "long_lines", 0, 1}});
+
+constexpr int most_side = 256;     ///< of the exemplar at which lines are looked at, as by the lattice search
+constexpr int most_exemplars = 2;  ///< of the result, along a side
+
+Planes picture(Size size, bool wraps, const std::function<const AppearanceVector&(int, int)>& at) {
+  Planes out = Planes::zeros(size, appearance_dimensions, wraps);
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) std::ranges::copy(at(x, y), out.at(x, y));
+  return out;
+}
+
+Planes picture_of_result(const UvMap& uv, const AppearanceLevel& level) {
+  const Size e = uv.exemplar(), l = level.size;
+  const auto side = [](int result, int exemplar, int shown) {
+    return int(std::min(int64_t(result), int64_t(most_exemplars) * exemplar) * shown / exemplar);
+  };
+  const auto scaled = [](int at, int from, int to) { return int(int64_t(at) * to / from); };
+  return picture(
+      {side(uv.size().width, e.width, l.width), side(uv.size().height, e.height, l.height)}, false,
+      [&](int x, int y) -> const AppearanceVector& {
+        const ExemplarPixel p = uv.at(scaled(x, l.width, e.width), scaled(y, l.height, e.height));
+        return level
+            .vectors[size_t(scaled(p.y, e.height, l.height)) * size_t(l.width) + size_t(scaled(p.x, e.width, l.width))];
+      });
+}
+
+}  // namespace
+
+bool LongLines::are_broken() const {
+  return share >= long_lines_tuning->least_share && kept < long_lines_tuning->least_kept;
+}
+
+LongLines long_lines(const UvMap& uv, const Appearance& appearance, const Task& task) {
+  const auto small = std::ranges::find_if(
+      appearance.levels(), [](const AppearanceLevel& l) { return std::min(l.size.width, l.size.height) <= most_side; });
+  const AppearanceLevel& level = small == appearance.levels().end() ? appearance.levels().back() : *small;
+  LongLines out;
+  if (!level.usable.empty()) return out;
+  const int side = std::min(level.size.width, level.size.height);
+  const Planes exemplar = picture(level.size, appearance.wraps(), [&](int x, int y) -> const AppearanceVector& {
+    return level.vectors[size_t(y) * size_t(level.size.width) + size_t(x)];
+  });
+  const Planes result = picture_of_result(uv, level);
+  if (std::min(result.size.width, result.size.height) < side) return out;
+  std::array<LineChanges, 2> own, shown;
+  for (const bool rows : {true, false}) {
+    own[rows] = line_changes(exemplar, rows, side, task);
+    shown[rows] = line_changes(result, rows, side, task);
+  }
+  const double all = own[0].single + own[1].single;
+  for (const bool rows : {true, false}) {
+    if (own[rows].lasting <= 0 || shown[rows].brief <= 0) continue;
+    const double kept = shown[rows].lasting / own[rows].lasting * own[rows].brief / shown[rows].brief;
+    const LongLines l{own[rows].lasting / all, kept};
+    if (l.are_broken() ? !out.are_broken() || l.kept < out.kept : !out.are_broken() && l.share > out.share) out = l;
+  }
+  return out;
+}
+
+}  // namespace terrazzo
