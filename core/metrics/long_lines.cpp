@@ -67,16 +67,15 @@ LongLines long_lines(const UvMap& uv, const Appearance& appearance, const Task& 
   });
   const Planes result = picture_of_result(uv, level);
   if (std::min(result.size.width, result.size.height) < side) return out;
-  std::array<LineChanges, 2> own, shown;
-  for (const bool rows : {true, false}) {
-    own[rows] = line_changes(exemplar, rows, side, task);
-    shown[rows] = line_changes(result, rows, side, task);
-  }
+  std::array<LineChanges, 2> own;
+  for (const bool rows : {true, false}) own[rows] = line_changes(exemplar, rows, side, task);
   const double all = own[0].single + own[1].single;
   for (const bool rows : {true, false}) {
-    if (own[rows].lasting <= 0 || shown[rows].brief <= 0) continue;
-    const double kept = shown[rows].lasting / own[rows].lasting * own[rows].brief / shown[rows].brief;
-    const LongLines l{own[rows].lasting / all, kept};
+    LongLines l{all > 0 ? own[rows].lasting / all : 0, 1};
+    if (l.share >= long_lines_tuning->least_share) {
+      const LineChanges shown = line_changes(result, rows, side, task);
+      if (shown.brief > 0) l.kept = shown.lasting / own[rows].lasting * own[rows].brief / shown.brief;
+    }
     if (l.are_broken() ? !out.are_broken() || l.kept < out.kept : !out.are_broken() && l.share > out.share) out = l;
   }
   return out;

@@ -10,7 +10,8 @@ namespace terrazzo {
 /// change across a line is averaged along half of the exemplar: what goes on straight stays, all else cancels out.
 struct LongLines {
   double share = 0;  ///< of all changes of the exemplar, along both axes, that stay
-  double kept = 1;   ///< what stays in the result over what does in the exemplar, short lines in both being alike
+  double kept = 1;   ///< what stays in the result over what does in the exemplar, short lines in both being alike; 1
+                     ///< of a share that is too small to be missed
 
   /// Whether the exemplar has such lines, and most of them are broken.
   bool are_broken() const;

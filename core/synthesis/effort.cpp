@@ -21,7 +21,7 @@ const Tunable<EffortTuning> effort_tuning(
 Effort effort_of(const LevelFacts& f) {
   if (f.quality == Quality::draft) {
     if (f.level <= 1) return {f.kept ? 3 : f.level + 1, 0, &sparse_window()};
-    return {5, f.level >= 3 ? 16 : 4, &full_window()};
+    return {5, f.level >= 3 ? 6 : 2, &full_window()};
   }
   // Whole elements are squeezed to fit, and bands are laid anew: more passes would pull them apart again.
   if (f.kept && f.level <= 1 && !f.lays_elements() && !f.bands) return {6, 4, &full_window()};
@@ -32,7 +32,7 @@ Effort effort_of(const LevelFacts& f) {
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
   if (f.level == 1) return {f.small() ? effort_tuning->small_passes : 2, 0, &full_window()};
   if (f.kept) return {10, f.level >= 3 ? 24 : 8, &full_window()};
-  return {7, f.level >= 3 ? 24 : 8, &full_window()};
+  return {7, f.level >= 3 ? 6 : 2, &full_window()};
 }
 
 int reach_of(int passes) {

@@ -136,7 +136,10 @@ class PixelCorrector {
     for (int n = 1; n < 9; n++)
       if (around_[n])
         candidates_.add_continued(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
-    for (int n = 0; n < 9; n++)
+    // Those beside the pixel in one pass, those across the corners in the next: half the candidates serve as well.
+    const int first = pass_.pass % 2 == 0 ? 1 : 5;
+    candidates_.propose_similar(*around_[0], 0);
+    for (int n = first; n < first + 4; n++)
       if (around_[n]) candidates_.propose_similar(*around_[n], n);
     const uint64_t bits = more_random_bits(pass_bits_, x_, y_);
     for (int k = 0; k < pass_.random_candidates; k++) {
