@@ -228,6 +228,19 @@ bool may_have_lattice(const Features& features, double least_certainty, const Ta
   return false;
 }
 
+namespace {
+
+ElementsPtr surely_found_elements(const Features& features, const Task& task) {
+  const ElementsPtr elements = find_elements(features, task);
+  return elements && elements->certainty >= sure_elements ? elements : nullptr;
+}
+
+int count_courses(const Elements& elements) {
+  return int(element_courses(elements, true).bands.size());
+}
+
+}  // namespace
+
 FoundLattice told_by_few_elements(const Features& features, const FoundLattice& found, const Task& task) {
   const Lattice& l = found.lattice;
   const Size size = features.size();
@@ -235,8 +248,8 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
                        : l.rank == 1 ? (l.first.x() == 0 ? size.height : size.width) / l.first.sum()
                                      : 0;
   if (features.mask() || cells > most_few_elements()) return found;
-  const ElementsPtr elements = find_elements(features, task);
-  if (!elements || elements->certainty < sure_elements) return found;
+  const ElementsPtr elements = surely_found_elements(features, task);
+  if (!elements) return found;
   FoundLattice out = found;
   if (!are_in_step(*elements, l, true)) {
     if (const Lattice of_few = lattice_of_few(*elements, l); of_few.rank > 0)
@@ -244,7 +257,7 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
     else if (l.rank < 2 && joints_cross(*elements))
       out.lattice = {2, {double(size.width), 0}, {0, double(size.height)}, 1};
   }
-  if (out.lattice.is_single_cell(size)) out.courses = int(element_courses(*elements, true).bands.size());
+  if (out.lattice.is_single_cell(size)) out.courses = count_courses(*elements);
   return out;
 }
 
@@ -254,8 +267,12 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
       find_lattice({view_of(planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
   if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
   if (found.lattice.rank > 1 || found.crossing.rank == 0 || features.mask()) return found;
+  const ElementsPtr elements = surely_found_elements(features, task);
+  const int courses = elements ? count_courses(*elements) : 0;
+  if (found.lattice.rank == 1 && courses > 0) return found;  // boards, say, whose joints are as long
   found.lattice = found.crossing;
-  return told_by_few_elements(features, found, task);
+  if (found.lattice.is_single_cell(features.size())) found.courses = courses;
+  return found;
 }
 
 }  // namespace terrazzo

@@ -128,16 +128,16 @@ Param whole_bricks_param() {
           .type = ParamType::boolean,
           .fallback = true,
           .help =
-              "For walls and floors: lays whole bricks and boards, cut at joints only, and whole stones, slates and "
-              "tiles if the analysis knows them (\"elements\"). Not in drafts. false gives fewer new combinations and "
-              "cuts some of them."};
+              "For walls and floors of which the analysis knows the elements (node `elements`): lays whole bricks, "
+              "boards, stones, slates and tiles. Not in drafts. false gives fewer new combinations and cuts some of "
+              "them."};
 }
 
 Param whole_bricks_between_kept_param() {
   Param p = whole_bricks_param();
   p.help =
-      "For walls and floors: lays whole stones, bricks, slates and tiles if the analysis knows them (\"elements\"); "
-      "those that are kept in part go on beyond. Not in drafts. false cuts some of them.";
+      "For walls and floors of which the analysis knows the elements (node `elements`): lays whole bricks, boards, "
+      "stones, slates and tiles; those that are kept in part go on beyond. Not in drafts. false cuts some of them.";
   return p;
 }
 

@@ -6,7 +6,9 @@
 #include <doctest/doctest.h>
 
 #include "core/analysis/repeats/regularity.h"
+#include "core/analysis/space/weighting.h"
 #include "core/base/hash.h"
+#include "core/procedural/pattern.h"
 #include "tests/exemplars.h"
 
 /// Exemplars that are panels, and tile.
@@ -53,4 +55,14 @@ TEST_CASE("panels in a row of which some are two wide come again as a whole") {
   CHECK(even.cell_area() == doctest::Approx(32 * 128).epsilon(0.01));
   CHECK(even.fits({32, 128}, true, true));
   CHECK(found(row(true)).is_single_cell({256, 128}));
+}
+
+TEST_CASE("boards whose joints are long lines, too, keep their courses, which their elements tell") {
+  PatternSpec spec;
+  spec.type = "planks";
+  spec.size = {512, 512};
+  const FoundLattice told = find_lattice(*weighted_features(*make_pattern(spec, Task()), {}, true), 0.08, Task());
+  CHECK(told.crossing.rank == 2);
+  CHECK(told.lattice.rank == 1);
+  CHECK(told.lattice.first.y() == doctest::Approx(512 / 6.0).epsilon(0.01));
 }
