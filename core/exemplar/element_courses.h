@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// What a course may consist of, and the course that each piece is of.
+/// What a course may consist of, along it, and the course that each piece is of, across.
 struct CoursePieces {
   std::vector<ExemplarSpan> pieces, bands;
 };

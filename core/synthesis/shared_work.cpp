@@ -63,7 +63,7 @@ Repeats repeats_of(const Appearance& appearance, const ElementCourses& courses, 
   return l.rank == 1 && l.comes_once(appearance.size()) && !options.controls.empty() ? Repeats() : appearance.repeats();
 }
 
-/// Elements that lie in phase with a lattice of cells keep to it, and so do bricks and boards of straight courses.
+/// Elements that lie in phase with a lattice of cells keep to it.
 WholeElements whole_elements_of(const Appearance& appearance, const Repeats& repeats, const ElementCourses& courses,
                                 const SynthesisOptions& options) {
   if (!options.whole_bricks || !courses.empty() || !has_elements(appearance)) return WholeElements::none;
