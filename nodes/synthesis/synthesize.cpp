@@ -53,7 +53,10 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
   }
   const ShownElements shown = shown_elements(uv, *elements, node.task());
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
-  if (shown.are_broken() && !are_in_step(*elements, repeats_in_result(appearance, options).lattice, appearance.wraps()))
+  if (shown.are_broken() && (options.tile_x || options.tile_y) && lays_courses(appearance, options))
+    node.note(counts + ", others are a little shorter or longer, so that courses end where the result does");
+  else if (shown.are_broken() &&
+           !are_in_step(*elements, repeats_in_result(appearance, options).lattice, appearance.wraps()))
     node.warn(
         counts +
         ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "

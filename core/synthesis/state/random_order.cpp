@@ -47,8 +47,8 @@ std::vector<int> RandomOrder::filling(double length, const SequenceEnds& ends) {
 
 /// How often each comes for all to make up a length: one that is shown once more, or once less, than it should counts
 /// like missing as much as is not seen. The subset sum problem (Bellman 1957), each piece up to three times beside
-/// whole rounds of all.
-std::vector<int> RandomOrder::counts_for(double length) const {
+/// whole rounds of all. Of choices that are as good any is taken: pieces count in random order.
+std::vector<int> RandomOrder::counts_for(double length) {
   constexpr int most = 3, unknown = std::numeric_limits<int>::max();
   const int rounds = std::max(0, int(length / all_) - 1), left = int(std::lround(length - rounds * all_));
   const double unseen = std::max(1.0, Lattice{1, {}, {}, 1}.unseen_bend() * length);
@@ -57,7 +57,11 @@ std::vector<int> RandomOrder::counts_for(double length) const {
   std::vector<int> least(sums, unknown);
   least[0] = 0;
   std::vector<std::vector<uint8_t>> counts;
-  for (const double piece : lengths_) {
+  std::vector<size_t> pieces(lengths_.size());
+  std::iota(pieces.begin(), pieces.end(), size_t{0});
+  for (size_t k = pieces.size(); k > 1; k--) std::swap(pieces[k - 1], pieces[size_t(draw() * double(k))]);
+  for (const size_t k : pieces) {
+    const double piece = lengths_[k];
     std::vector<int> next(sums, unknown);
     std::vector<uint8_t> chosen(sums, 0);
     for (int n = 0; n <= most; n++)
@@ -78,9 +82,10 @@ std::vector<int> RandomOrder::counts_for(double length) const {
   for (size_t sum = 1; sum < sums; sum++)
     if (badness(sum) < badness(best)) best = sum;
   std::vector<int> out(lengths_.size(), rounds);
-  for (size_t k = out.size(); k-- > 0;) {
-    out[k] += counts[k][best];
-    best -= size_t(counts[k][best] * std::lround(lengths_[k]));
+  for (size_t i = out.size(); i-- > 0;) {
+    const size_t k = pieces[i];
+    out[k] += counts[i][best];
+    best -= size_t(counts[i][best] * std::lround(lengths_[k]));
   }
   return out;
 }

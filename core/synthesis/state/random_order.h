@@ -27,7 +27,7 @@ class RandomOrder {
   double draw();
 
  private:
-  std::vector<int> counts_for(double length) const;
+  std::vector<int> counts_for(double length);
   std::vector<int> shuffled(std::vector<int> counts, const SequenceEnds& ends);
 
   std::vector<double> lengths_;

@@ -2,7 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include "core/analysis/elements/find_elements.h"
+#include "core/analysis/space/appearance_space.h"
+#include "core/analysis/space/weighting.h"
 #include "core/base/error.h"
+#include "core/procedural/pattern.h"
 #include "nodes/common/registry.h"
 #include "tests/drawn_stones.h"
 #include "tests/drawn_wall.h"
@@ -141,6 +145,17 @@ TEST_CASE("of several exemplars it is told how much of each is shown, and which 
   CHECK(one[0] == "the result shows exemplar 1 in 100 %, exemplar 2 in 0 %");
   CHECK(one[1].starts_with("warning: the result shows nothing of exemplar 2,"));
   CHECK(notes(48, {60, 40}).size() == 1);
+}
+
+TEST_CASE("courses that wrap after any length are not said to be torn, though their boards are shortened") {
+  const MaterialPtr boards = make_pattern({.type = "planks", .size = {256, 256}}, Task());
+  const FeaturesPtr features = weighted_features(*boards, {}, true)->with(Lattice{1, {0, 256 / 6.0}, {}, 0.9});
+  const FeaturesPtr known = features->with(find_elements(*features, Task()));
+  const IndexPtr index = make_index(make_appearance(*known, {}, {}, Task()), 3, Task());
+  const NodeRun run =
+      run_node("synthesize", {{"size", Size{450, 256}}, {"tileable", std::string("xy")}}, {{"index", {index}}});
+  CHECK(run.says("others are a little shorter or longer"));
+  CHECK(!run.says("torn"));
 }
 
 TEST_CASE("how many elements are whole is told, and doubtful results are warned of") {

@@ -62,6 +62,14 @@ TEST_CASE("between two others a gap is filled by neither next to itself") {
   }
 }
 
+TEST_CASE("of pieces of one length all come into gaps that hold few of them") {
+  RandomOrder random(std::vector<double>(12, 20.0), 7);
+  std::vector<int> used(12, 0);
+  for (int i = 0; i < 60; i++)
+    for (const int k : random.filling(80)) used[size_t(k)]++;
+  CHECK(std::ranges::min(used) >= 8);  // of twenty in the mean
+}
+
 TEST_CASE("what is too short for any is left, and one alone comes again and again") {
   CHECK(RandomOrder(lengths, 1).filling(5, {0, 1}).empty());
   CHECK(RandomOrder(lengths, 1).filling(-3, {0, 1}).empty());
