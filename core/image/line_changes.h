@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "core/base/task.h"
 #include "core/image/float_planes.h"
 

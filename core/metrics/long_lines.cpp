@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "core/base/tuning.h"
 #include "core/image/line_changes.h"
@@ -34,19 +35,23 @@ Planes picture(Size size, bool wraps, const std::function<const AppearanceVector
   return out;
 }
 
-Planes picture_of_result(const UvMap& uv, const AppearanceLevel& level) {
-  const Size e = uv.exemplar(), l = level.size;
+/// Of the part of a result that is looked at, at the size of that level.
+Size seen_size(const UvMap& uv, Size level) {
   const auto side = [](int result, int exemplar, int shown) {
     return int(std::min(int64_t(result), int64_t(most_exemplars) * exemplar) * shown / exemplar);
   };
+  return {side(uv.size().width, uv.exemplar().width, level.width),
+          side(uv.size().height, uv.exemplar().height, level.height)};
+}
+
+Planes picture_of_result(const UvMap& uv, const AppearanceLevel& level) {
+  const Size e = uv.exemplar(), l = level.size;
   const auto scaled = [](int at, int from, int to) { return int(int64_t(at) * to / from); };
-  return picture(
-      {side(uv.size().width, e.width, l.width), side(uv.size().height, e.height, l.height)}, false,
-      [&](int x, int y) -> const AppearanceVector& {
-        const ExemplarPixel p = uv.at(scaled(x, l.width, e.width), scaled(y, l.height, e.height));
-        return level
-            .vectors[size_t(scaled(p.y, e.height, l.height)) * size_t(l.width) + size_t(scaled(p.x, e.width, l.width))];
-      });
+  return picture(seen_size(uv, l), false, [&](int x, int y) -> const AppearanceVector& {
+    const ExemplarPixel p = uv.at(scaled(x, l.width, e.width), scaled(y, l.height, e.height));
+    return level
+        .vectors[size_t(scaled(p.y, e.height, l.height)) * size_t(l.width) + size_t(scaled(p.x, e.width, l.width))];
+  });
 }
 
 }  // namespace
@@ -60,20 +65,21 @@ LongLines long_lines(const UvMap& uv, const Appearance& appearance, const Task& 
       appearance.levels(), [](const AppearanceLevel& l) { return std::min(l.size.width, l.size.height) <= most_side; });
   const AppearanceLevel& level = small == appearance.levels().end() ? appearance.levels().back() : *small;
   LongLines out;
-  if (!level.usable.empty()) return out;
   const int side = std::min(level.size.width, level.size.height);
+  const Size seen = seen_size(uv, level.size);
+  if (!level.usable.empty() || std::min(seen.width, seen.height) < side) return out;
   const Planes exemplar = picture(level.size, appearance.wraps(), [&](int x, int y) -> const AppearanceVector& {
     return level.vectors[size_t(y) * size_t(level.size.width) + size_t(x)];
   });
-  const Planes result = picture_of_result(uv, level);
-  if (std::min(result.size.width, result.size.height) < side) return out;
+  std::optional<Planes> result;  // only where lines could be missed
   std::array<LineChanges, 2> own;
   for (const bool rows : {true, false}) own[rows] = line_changes(exemplar, rows, side, task);
   const double all = own[0].single + own[1].single;
   for (const bool rows : {true, false}) {
     LongLines l{all > 0 ? own[rows].lasting / all : 0, 1};
     if (l.share >= long_lines_tuning->least_share) {
-      const LineChanges shown = line_changes(result, rows, side, task);
+      if (!result) result = picture_of_result(uv, level);
+      const LineChanges shown = line_changes(*result, rows, side, task);
       if (shown.brief > 0) l.kept = shown.lasting / own[rows].lasting * own[rows].brief / shown.brief;
     }
     if (l.are_broken() ? !out.are_broken() || l.kept < out.kept : !out.are_broken() && l.share > out.share) out = l;

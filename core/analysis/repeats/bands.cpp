@@ -251,8 +251,11 @@ Bands bands_of(const Correlation& r, bool courses) {
 }
 
 bool come_often(const Lattice& bands, Size exemplar) {
-  const int length = bands.first.x() == 0 ? exemplar.height : exemplar.width;
-  return length >= bands_tuning->often * bands.first.sum();
+  return count_bands(bands, exemplar) >= bands_tuning->often;
+}
+
+double count_bands(const Lattice& bands, Size exemplar) {
+  return (bands.first.x() == 0 ? exemplar.height : exemplar.width) / bands.first.sum();
 }
 
 Lattice with_turned_bands(const Correlation& r, const Lattice& bands) {

@@ -17,6 +17,8 @@ Bands bands_of(const Correlation& r, bool courses);
 
 /// Whether the exemplar shows so many that they come again by no chance.
 bool come_often(const Lattice& bands, Size exemplar);
+/// How many of them an exemplar is high, or wide.
+double count_bands(const Lattice& bands, Size exemplar);
 
 /// The same as bands_of() for diagonal stripes, in the direction in which lines differ most. Rank 2, as they repeat
 /// along both axes; the step along the stripes is as long as the one across.

@@ -200,11 +200,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     return l.fitted(size, wraps, wraps);
   };
   // Of two courses, or columns, the joints across one are about half the exemplar long.
-  const int bands =
-      best.rank == 1
-          ? int((best.first.x() == 0 ? largest.planes.size.height : largest.planes.size.width) / best.first.sum() + 0.5)
-          : 0;
-  if (best.rank < 2 && wraps && bands != 2)
+  const bool two_bands = best.rank == 1 && std::lround(count_bands(best, largest.planes.size)) == 2;
+  if (best.rank < 2 && wraps && !two_bands)
     if (const Lattice l = lattice_of_crossing_lines(largest.planes, edges.front(), task); l.rank > 0)
       out.crossing = in_exemplar(l);
   out.has_lines = best.rank > 0 || std::ranges::any_of(edges, has_lines);
@@ -244,9 +241,7 @@ int count_courses(const Elements& elements) {
 FoundLattice told_by_few_elements(const Features& features, const FoundLattice& found, const Task& task) {
   const Lattice& l = found.lattice;
   const Size size = features.size();
-  const double cells = l.rank == 2   ? double(size.area()) / l.cell_area()
-                       : l.rank == 1 ? (l.first.x() == 0 ? size.height : size.width) / l.first.sum()
-                                     : 0;
+  const double cells = l.rank == 2 ? double(size.area()) / l.cell_area() : l.rank == 1 ? count_bands(l, size) : 0;
   if (features.mask() || cells > most_few_elements()) return found;
   const ElementsPtr elements = surely_found_elements(features, task);
   if (!elements) return found;

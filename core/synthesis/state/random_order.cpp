@@ -59,7 +59,9 @@ std::vector<int> RandomOrder::counts_for(double length) {
   std::vector<std::vector<uint8_t>> counts;
   std::vector<size_t> pieces(lengths_.size());
   std::iota(pieces.begin(), pieces.end(), size_t{0});
-  for (size_t k = pieces.size(); k > 1; k--) std::swap(pieces[k - 1], pieces[size_t(draw() * double(k))]);
+  const uint64_t bits = more_random_bits(bits_, filled_++);
+  for (size_t k = pieces.size(); k > 1; k--)
+    std::swap(pieces[k - 1], pieces[below(uint32_t(more_random_bits(bits, k)), uint32_t(k))]);
   for (const size_t k : pieces) {
     const double piece = lengths_[k];
     std::vector<int> next(sums, unknown);

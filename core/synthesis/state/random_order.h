@@ -32,7 +32,7 @@ class RandomOrder {
 
   std::vector<double> lengths_;
   double all_;
-  uint64_t bits_, drawn_ = 0;
+  uint64_t bits_, drawn_ = 0, filled_ = 0;
 };
 
 }  // namespace terrazzo
