@@ -13,19 +13,13 @@ namespace terrazzo {
 namespace {
 
 struct SharedWorkTuning {
-  double shortest_brick = 64;
-  double surest_lattice = 0.4;
+  double surer = 0.5;
 };
 const Tunable<SharedWorkTuning> shared_work_tuning(
-    "shared_work",
-    {{&SharedWorkTuning::shortest_brick, "shortest_brick", "pixels",
-      "of bricks, and of elements that keep to a lattice. Lower: what seams lay well enough costs time as "
-      "well, and thin joints suffer",
-      "element_layout"},
-     {&SharedWorkTuning::surest_lattice, "surest_lattice", "certainty",
-      "of cells that repeat, from which on elements are laid in phase with them rather than anywhere. Higher: "
-      "straight rows bend; lower: stones that vary overlap",
-      "element_layout"}});
+    "shared_work", {{&SharedWorkTuning::surer, "surer", "certainty",
+                     "by which elements exceed their lattice that are laid without it. Higher: stones that vary are "
+                     "torn; lower: straight rows bend",
+                     "element_layout", -1, 1}});
 
 /// Parts that repeat each in its own way keep to where they lie in the exemplar, and so does what controls place.
 Vector2d lattice_start(const Repeats& repeats, const SynthesisOptions& o) {
@@ -49,12 +43,6 @@ std::vector<ShownSpan> bands_in_result(const ElementCourses& courses, Size exemp
   return bands_of(courses, exemplar, {o.size, o.tile_x, o.tile_y}, o.kept, random_bits(o.seed, Purpose::courses));
 }
 
-/// Whether elements lie in phase with a lattice of cells.
-bool is_grid(const Lattice& lattice, const Appearance& appearance) {
-  return lattice.rank == 2 && (lattice.certainty >= shared_work_tuning->surest_lattice ||
-                               are_in_step(*appearance.elements(), lattice, appearance.wraps()));
-}
-
 /// How the exemplar repeats. Where controls say what goes where, a band that comes once does not: it may be one of the
 /// parts that they tell apart.
 Repeats repeats_of(const Appearance& appearance, const ElementCourses& courses, const SynthesisOptions& options) {
@@ -63,15 +51,18 @@ Repeats repeats_of(const Appearance& appearance, const ElementCourses& courses, 
   return l.rank == 1 && l.comes_once(appearance.size()) && !options.controls.empty() ? Repeats() : appearance.repeats();
 }
 
-/// Elements that lie in phase with a lattice of cells keep to it.
+/// Whether the elements are surer than the lattice that they should keep to.
+bool are_surer(const Elements& elements, const Lattice& lattice, bool wraps) {
+  return elements.certainty - lattice.certainty >= shared_work_tuning->surer && !are_in_step(elements, lattice, wraps);
+}
+
+/// What keeps to a lattice is in its place already.
 WholeElements whole_elements_of(const Appearance& appearance, const Repeats& repeats, const ElementCourses& courses,
                                 const SynthesisOptions& options) {
   if (!options.whole_bricks || !courses.empty() || !has_elements(appearance)) return WholeElements::none;
   const Lattice& lattice = repeats.lattice;
-  if (!is_grid(lattice, appearance)) return WholeElements::free;
-  const bool small = typical_side(*appearance.elements()) < shared_work_tuning->shortest_brick;
-  if (!repeats.parts.empty()) return small ? WholeElements::none : WholeElements::free;
-  return small ? WholeElements::completed : WholeElements::in_cells;
+  const bool free = lattice.rank == 0 || are_surer(*appearance.elements(), lattice, appearance.wraps());
+  return free ? WholeElements::laid : WholeElements::completed;
 }
 
 }  // namespace
@@ -136,11 +127,6 @@ LatticeSurface SharedWork::surface() const {
           origin,
           gaps,
           bands};
-}
-
-const Lattice* SharedWork::element_lattice() const {
-  const bool along_courses = lattice.rank == 1 && repeats.parts.empty();
-  return along_courses || elements == WholeElements::in_cells ? &lattice : nullptr;
 }
 
 LevelFacts SharedWork::facts(int level) const {

@@ -102,8 +102,7 @@ bool penalizes_proximity(const LevelFacts& f) {
 /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
 /// other exemplars moving seams brings nothing. Between elements that are laid as wholes there is nothing to move.
 bool moves_seams(const LevelFacts& f) {
-  return f.level <= finest_whole_level && (f.regular || f.kept) && !is_draft(f) &&
-         (!f.lays_elements() || f.elements == WholeElements::in_cells);
+  return f.level <= finest_whole_level && (f.regular || f.kept) && !is_draft(f) && !f.lays_elements();
 }
 
 bool keeps_pixels(const LevelFacts& f) {
@@ -170,7 +169,7 @@ void lay_courses(StepContext& c) {
 }
 
 void lay_whole_elements(StepContext& c) {
-  lay_elements(c.field, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.task);
+  lay_elements(c.field, c.level, *c.shared.index.appearance(), c.task);
 }
 
 void complete(StepContext& c) {
@@ -237,9 +236,9 @@ const Step all_steps[] = {
      upsample},
     {"fixed_pixels", Phase::upsampling, "kept pixels get their old content back", keeps_pixels, start_where_kept},
     {"band_layout", Phase::upsampling, "courses of bricks, boards and panels are laid anew", lays_bands, lay_courses},
-    {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes",
+    {"element_layout", Phase::upsampling, "stones are laid as wholes",
      [](const LevelFacts& f) { return f.lays_elements(); }, lay_whole_elements},
-    {"element_cores", Phase::upsampling, "small tiles and bricks become whole where they lie",
+    {"element_cores", Phase::upsampling, "tiles and bricks become whole where they lie",
      [](const LevelFacts& f) { return f.makes_elements_whole() && !f.lays_elements(); }, complete},
     {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
     {"graphcut_repair", Phase::before_pass, "the worst seams are covered with patches along minimum cuts",

@@ -30,7 +30,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 36;
+inline constexpr int synthesis_version = 37;
 
 /// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
 /// are: there bricks and elements are laid, and seams moved for the last time.
@@ -52,9 +52,8 @@ inline constexpr std::string_view phase_names[] = {"costs", "coarsest level", "u
 /// How the exemplar's elements become whole in the result, if that is asked for and it has enough of them.
 enum class WholeElements : uint8_t {
   none,       ///< they do not, or as parts of its courses
-  free,       ///< they are laid anywhere, or anywhere along its courses
-  in_cells,   ///< they are laid in the cells of its lattice
-  completed,  ///< they lie in such cells and are too small to be laid: they are completed where they lie
+  laid,       ///< they are laid side by side
+  completed,  ///< they are completed where its lattice has them
 };
 
 /// What decides which steps run on a level, computed once for it.
@@ -77,7 +76,7 @@ struct LevelFacts {
   bool counts_use() const;
   /// Whether elements become whole on this level. Those that are laid stay what they are.
   bool makes_elements_whole() const;
-  bool lays_elements() const { return makes_elements_whole() && elements != WholeElements::completed; }
+  bool lays_elements() const { return makes_elements_whole() && elements == WholeElements::laid; }
 };
 
 /// How much work goes into a level.
@@ -113,8 +112,6 @@ struct SharedWork {
   /// What the exemplar's lattice covers, made to wrap around with the result.
   LatticeSurface surface() const;
   LevelFacts facts(int level) const;
-  /// The lattice that elements keep to when they are laid as wholes; null: none.
-  const Lattice* element_lattice() const;
 
   const Index& index;
   const SynthesisOptions& options;

@@ -10,15 +10,10 @@ namespace terrazzo {
 namespace {
 
 struct ElementCoresTuning {
-  double least_shown = 0.3;
   double rim = 1;
 };
 const Tunable<ElementCoresTuning> element_cores_tuning(
-    "element_cores", {{&ElementCoresTuning::least_shown, "least_shown", "of an element",
-                       "that the field must show for it to be completed. Higher: some elements stay put "
-                       "together from several; lower: those that hardly show push others away",
-                       "element_cores", 0, 1},
-                      {&ElementCoresTuning::rim, "rim", "blocks",
+    "element_cores", {{&ElementCoresTuning::rim, "rim", "blocks",
                        "from the middle of its joint that an element does not take. Higher: corners stay torn; "
                        "lower: thin joints break",
                        "element_cores", 0, 100}});
@@ -30,11 +25,8 @@ void complete_elements(Field& field, const CorrectionLevel& level, const Appeara
   const ElementShapes& shapes = places.shapes();
   std::vector<ShownElement> shown;
   for (const auto& of_element : places.shown())
-    for (const ShownElement& s : of_element) {
-      const ElementShape& shape = shapes[s.placed.element];
-      if (!shape.unusable && double(s.blocks) >= element_cores_tuning->least_shown * double(shape.area))
-        shown.push_back(s);
-    }
+    for (const ShownElement& s : of_element)
+      if (!shapes[s.placed.element].unusable) shown.push_back(s);
   std::ranges::stable_sort(shown, [](const ShownElement& a, const ShownElement& b) { return a.blocks > b.blocks; });
   const Plane plane = level.window.field();
   std::vector<uint8_t> taken(field.pixels.size());

@@ -33,17 +33,16 @@ const Tunable<ElementLayoutTuning> element_layout_tuning(
          "that must be kept for all of it to be shown. Higher: more is cut where kept pixels end; lower: crumbs count",
          "What each rule decides", 0, 1},
         {&ElementLayoutTuning::fewest, "fewest", "elements",
-         "that an exemplar must have whole. Higher: large tiles keep to their lattice; lower: they come back and back",
+         "that an exemplar must have whole. Higher: few large stones are torn; lower: they come back and back",
          "What each rule decides", 1},
     });
 
 class ElementLayout {
  public:
-  ElementLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Lattice* lattice)
+  ElementLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance)
       : field_(field),
         level_(level),
-        lattice_(lattice),
-        places_(field, level, appearance, lattice),
+        places_(field, level, appearance),
         shapes_(places_.shapes()),
         packing_(shapes_, level.window.field()) {}
 
@@ -55,12 +54,10 @@ class ElementLayout {
         s.placed.stays = is_continued(s);
         if (s.placed.stays || is_shown(s)) placed.push_back(s.placed);
       }
-    if (lattice_) packing_.keep_to(*lattice_, level_.phase);
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
     packing_.pack(std::move(placed), task);
     warps_.resize(packing_.placed().size());
-    if (!in_grid())
-      tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
+    tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
     tbb::parallel_for(0, field_.size.height, [&](int row) {
       for (int column = 0; column < field_.size.width; column++) show(column, row);
     });
@@ -100,13 +97,9 @@ class ElementLayout {
     return double(s.blocks) >= least * double(shape.area);
   }
 
-  /// Whether cells bring joints together. Then elements are rigid, or thin joints would tear, and holes show what they
-  /// did before, which is in phase.
-  bool in_grid() const { return lattice_ && lattice_->rank == 2; }
-
   void show(int column, int row) {
     const ElementPacking::Place& place = *packing_.find(column, row);
-    if (place.placed < 0 || level_.is_fixed(column, row) || (in_grid() && !packing_.is_filled(place))) return;
+    if (place.placed < 0 || level_.is_fixed(column, row)) return;
     const PlacedElement& p = packing_.placed()[size_t(place.placed)];
     int x = column - shapes_.column_of(p), y = row - shapes_.row_of(p);
     if (level_.window.closed_x) x = nearest_to_zero(x, field_.size.width);
@@ -121,7 +114,6 @@ class ElementLayout {
 
   Field& field_;
   const CorrectionLevel& level_;
-  const Lattice* lattice_;
   ElementPlaces places_;
   const ElementShapes& shapes_;
   ElementPacking packing_;
@@ -135,9 +127,8 @@ bool has_elements(const Appearance& appearance) {
   return e && whole_elements(*e, appearance.wraps()) >= element_layout_tuning->fewest;
 }
 
-void lay_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Lattice* lattice,
-                  const Task& task) {
-  ElementLayout layout(field, level, appearance, lattice);
+void lay_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Task& task) {
+  ElementLayout layout(field, level, appearance);
   layout.lay(task);
 }
 

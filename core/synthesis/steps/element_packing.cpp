@@ -1,6 +1,7 @@
 #include "core/synthesis/steps/element_packing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -77,6 +78,11 @@ const Tunable<PackTuning> pack_tuning(
     });
 
 constexpr float farthest = 1e6f;  // of what is kept, where nothing is
+
+/// By how many columns and rows elements move at a time.
+std::array<std::pair<int, int>, 4> moves(int reach) {
+  return {{{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}}};
+}
 
 }  // namespace
 
@@ -209,14 +215,6 @@ ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, i
   return out;
 }
 
-std::vector<std::pair<int, int>> ElementPacking::moves(int reach) const {
-  const auto [x, y] = moving();
-  std::vector<std::pair<int, int>> out;
-  if (x) out = {{reach, 0}, {-reach, 0}};
-  if (y) out.insert(out.end(), {{0, reach}, {0, -reach}});
-  return out;
-}
-
 int ElementPacking::step() const {
   return std::max(1, int(pack_tuning->step * shapes_.typical_side));
 }
@@ -225,30 +223,9 @@ int ElementPacking::step() const {
 template <typename Visit>
 void ElementPacking::for_places(const ElementShape& shape, const Hole& hole, Visit visit) const {
   const int off = int(pack_tuning->step * 4 * shapes_.typical_side);
-  const auto [moves_x, moves_y] = moving();
-  const int across = moves_x ? std::max(0, shape.box.width / 2 - off) : 0;
-  const int down = moves_y ? std::max(0, shape.box.height / 2 - off) : 0;
+  const int across = std::max(0, shape.box.width / 2 - off), down = std::max(0, shape.box.height / 2 - off);
   for (int y = -down; y <= down; y += step())
-    for (int x = -across; x <= across; x += step())
-      if (phase_)
-        for_places_in_phase(shape, {hole.column + x, hole.row + y}, visit);
-      else
-        visit(hole.column + x, hole.row + y);
-}
-
-template <typename Visit>
-void ElementPacking::for_places_in_phase(const ElementShape& shape, const Hole& hole, Visit visit) const {
-  const int x = hole.column * shapes_.block, y = hole.row * shapes_.block;
-  const int u = shape.centre_x * shapes_.block, v = shape.centre_y * shapes_.block;
-  int in_u = u, in_v = v;
-  phase_->snap(x, y, in_u, in_v);
-  const int second = lattice_.rank == 2 ? 1 : 0;
-  for (int j = -second; j <= second; j++)
-    for (int i = -1; i <= 1; i++) {
-      const Vector2d cells = lattice_.at({double(i), double(j)});
-      const double to_x = (x + u - in_u + cells.x()) / shapes_.block, to_y = (y + v - in_v + cells.y()) / shapes_.block;
-      visit(int(std::floor(to_x + 0.5)), int(std::floor(to_y + 0.5)));
-    }
+    for (int x = -across; x <= across; x += step()) visit(hole.column + x, hole.row + y);
 }
 
 bool ElementPacking::fill(const Hole& hole, const FitThresholds& terms) {
@@ -296,7 +273,6 @@ bool ElementPacking::fill(const Hole& hole, const FitThresholds& terms) {
 
 /// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
 void ElementPacking::settle(const Task& task) {
-  if (moves(1).empty()) return;
   const double overlap = pack_tuning->overlap;
   const int farthest = std::max(1, int(pack_tuning->farthest_moved * shapes_.typical_side));
   for (int round = 0; round < pack_tuning->settling; round++) {
@@ -358,7 +334,7 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
     settle(task);
   }
   remove_overlapped(task);
-  fill_holes({phase_ ? -1.0 : 0.0, pack_tuning->least_overlap}, task);  // courses: squeezed along them
+  fill_holes({0, pack_tuning->least_overlap}, task);
 }
 
 }  // namespace terrazzo

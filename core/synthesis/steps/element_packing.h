@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/base/task.h"
-#include "core/exemplar/repeats.h"
 #include "core/synthesis/state/plane_window.h"
 #include "core/synthesis/steps/element_holes.h"
 #include "core/synthesis/steps/element_shapes.h"
@@ -19,12 +18,6 @@ class ElementPacking {
  public:
   /// `plane`: the result, in blocks of the shapes.
   ElementPacking(const ElementShapes& shapes, const Plane& plane);
-
-  /// Elements come where they are in phase with a lattice only. Borrows `phase`.
-  void keep_to(const Lattice& lattice, const PartPhases& phase) {
-    lattice_ = lattice;
-    phase_ = &phase;
-  }
 
   /// Of each block of the result whether something is kept there that belongs to none of the elements.
   void keep_off(const std::vector<uint8_t>& blocks);
@@ -55,8 +48,6 @@ class ElementPacking {
     Depth neighbour;  ///< in the next one, mostly negative; far below 0 if there is none near
   };
   const std::vector<PlacedElement>& placed() const { return placed_; }
-  /// Whether a block is not part of a hole that no element fits.
-  bool is_filled(const Place& p) const { return double(p.depth.blocks()) > -tolerance_; }
   /// Also around the borders of a result that wraps; null outside of one that does not.
   const Place* find(int x, int y) const {
     const int64_t i = plane_.index(x, y);
@@ -79,16 +70,9 @@ class ElementPacking {
   bool fill(const Hole& hole, const FitThresholds& terms);
   template <typename Visit>
   void for_places(const ElementShape& shape, const Hole& hole, Visit visit) const;
-  template <typename Visit>
-  void for_places_in_phase(const ElementShape& shape, const Hole& hole, Visit visit) const;
   int step() const;
-  /// Whether elements may move along x and along y: both, along the courses that they keep to, or neither.
-  std::pair<bool, bool> moving() const {
-    const auto goes_on = [&](double first) { return !phase_ || (lattice_.rank == 1 && first == 0); };
-    return {goes_on(lattice_.first.x()), goes_on(lattice_.first.y())};
-  }
-  /// By how many columns and rows then.
-  std::vector<std::pair<int, int>> moves(int reach) const;
+  /// Whether a block is not part of a hole that no element fits.
+  bool is_filled(const Place& p) const { return double(p.depth.blocks()) > -tolerance_; }
   double seen_around(int element, int column, int row) const;
   /// How well an element fits somewhere.
   struct Fit {
@@ -105,8 +89,6 @@ class ElementPacking {
   const ElementShapes& shapes_;
   Plane plane_;
   double tolerance_;  ///< by how many blocks an element may end too early without leaving a hole
-  Lattice lattice_;   ///< of rank 0: elements come anywhere
-  const PartPhases* phase_ = nullptr;
   std::vector<PlacedElement> placed_;
   std::vector<Place> places_;
   std::vector<float> kept_depth_;                ///< of each block in what is kept; empty: nothing is

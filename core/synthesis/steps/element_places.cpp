@@ -33,13 +33,12 @@ struct Count {
 
 }  // namespace
 
-ElementPlaces::ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance,
-                             const Lattice* courses)
+ElementPlaces::ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance)
     : field_(field),
       level_(level),
       elements_(*appearance.elements()),
       wraps_(appearance.wraps()),
-      shapes_(element_shapes(elements_, appearance.levels().front().usable, level_.block, wraps_, courses)) {}
+      shapes_(element_shapes(elements_, appearance.levels().front().usable, level_.block, wraps_)) {}
 
 PlacedElement ElementPlaces::element_at(int column, int row) const {
   const ExemplarPixel& p = field_.at(column, row);

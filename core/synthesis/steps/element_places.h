@@ -20,9 +20,7 @@ struct ShownElement {
 /// Which elements a field shows, and where. Borrows the field, which may change meanwhile, and the level. Thread-safe.
 class ElementPlaces {
  public:
-  /// `courses`: see element_shapes().
-  ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance,
-                const Lattice* courses = nullptr);
+  ElementPlaces(const Field& field, const CorrectionLevel& level, const Appearance& appearance);
 
   const ElementShapes& shapes() const { return shapes_; }
 

@@ -16,14 +16,10 @@ namespace {
 
 struct ElementShapesTuning {
   double margin = 0.4;
-  double surest_courses = 0.4;
-  double as_large = 0.95;
-  double inset = 0.06;
   double most_whole = 0.5;
   double least_cut = 0.35;
   int samples = 36;
   int outline = 40;
-  int across = 3;
 };
 const Tunable<ElementShapesTuning> element_shapes_tuning(
     "element_shapes",
@@ -36,28 +32,12 @@ const Tunable<ElementShapesTuning> element_shapes_tuning(
          "that are compared when places for it are tried. Costs time", "element_layout", 1, 100000},
         {&ElementShapesTuning::outline, "outline", "blocks of its outline", "that are compared likewise",
          "element_layout", 4, 100000},
-        {&ElementShapesTuning::surest_courses, "surest_courses", "certainty",
-         "of straight courses, in which distances across count more. Higher: stones meet at "
-         "slanting corners; lower: those of rough courses are cut upright",
-         "element_layout", 0, 1},
-        {&ElementShapesTuning::as_large, "as_large", "times the median area",
-         "of elements in a grid that the border does not touch, from which on one that it touches "
-         "ends there and is not cut. Higher: more are left out; lower: cut tiles are laid",
-         "element_layout", 0, 2},
-        {&ElementShapesTuning::inset, "inset", "typical sides",
-         "by which such a tile keeps off the exemplar's border, where half of its joint may be "
-         "missing. Higher: less of it is shown; lower: joints have gaps",
-         "element_layout", 0, 0.4},
         {&ElementShapesTuning::most_whole, "most_whole", "of the exemplar",
          "that whole elements cover, below which cut ones are laid as well. Higher: more stones with "
          "a straight side; lower: less of the exemplar comes back",
          "element_layout", 0, 1},
         {&ElementShapesTuning::least_cut, "least_cut", "typical areas",
          "from which on a cut element is laid then. Higher: fewer; lower: slivers are laid", "element_layout", 0, 2},
-        {&ElementShapesTuning::across, "across", "times",
-         "that distances across courses count against those along them. Higher: neighbours in "
-         "a course meet in upright joints; costs time and memory",
-         "element_layout", 1, 16},
     });
 
 /// The exemplar's regions, one per block.
@@ -107,26 +87,7 @@ void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   shape.cut |= !grid.plane.tile_x && at_border;
 }
 
-/// Signed distances, positive inside, of which those in x, or those in y, count so many times.
-std::vector<float> stretched_depths(const std::vector<uint8_t>& inside, Size size, Size times) {
-  const Size large{size.width * times.width, size.height * times.height};
-  std::vector<uint8_t> mask(size_t(large.area()));
-  for (int y = 0; y < large.height; y++)
-    for (int x = 0; x < large.width; x++)
-      mask[size_t(y) * size_t(large.width) + size_t(x)] =
-          inside[size_t(y / times.height) * size_t(size.width) + size_t(x / times.width)];
-  const std::vector<float> distances = signed_distances(mask, large, false, 1e6f);
-  std::vector<float> out(inside.size());
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++)
-      out[size_t(y) * size_t(size.width) + size_t(x)] =
-          -distances[size_t(y * times.height + times.height / 2) * size_t(large.width) +
-                     size_t(x * times.width + times.width / 2)];
-  return out;
-}
-
-/// `inset`: blocks at the exemplar's border that do not count.
-void measure(const Grid& grid, int element, int margin, int inset, const Extent& e, Size times, ElementShape& shape) {
+void measure(const Grid& grid, int element, int margin, const Extent& e, ElementShape& shape) {
   shape.centre_x = int(std::floor(e.sum_x / double(shape.area) + 0.5));
   shape.centre_y = int(std::floor(e.sum_y / double(shape.area) + 0.5));
   shape.box = {e.left - margin - shape.centre_x, e.top - margin - shape.centre_y, e.right - e.left + 1 + 2 * margin,
@@ -139,11 +100,10 @@ void measure(const Grid& grid, int element, int margin, int inset, const Extent&
   };
   std::vector<uint8_t> inside;
   for_blocks(0, 1, [&](int x, int y) {
-    const int u = x + shape.centre_x, v = y + shape.centre_y;
-    const bool counts = std::min({u, v, grid.plane.size.width - 1 - u, grid.plane.size.height - 1 - v}) >= inset;
-    inside.push_back((inset == 0 || counts) && grid.region(u, v) == element);
+    inside.push_back(grid.region(x + shape.centre_x, y + shape.centre_y) == element);
   });
-  shape.depths = stretched_depths(inside, {shape.box.width, shape.box.height}, times);
+  shape.depths = signed_distances(inside, {shape.box.width, shape.box.height}, false, 1e6f);
+  for (float& depth : shape.depths) depth = -depth;
   shape.inner_radius = std::max(shape.inner_radius, std::ranges::max(shape.depths));
   const int step = std::max(1, int(std::sqrt(double(shape.area) / element_shapes_tuning->samples)));
   for_blocks(step / 2, step, [&](int x, int y) {
@@ -157,26 +117,17 @@ void measure(const Grid& grid, int element, int margin, int inset, const Extent&
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
 }
 
-/// Elements that the exemplar's border cuts. Tiles of a grid may end there: those are as large as the others. Where
-/// most of the exemplar lies in cut elements, those end there that are not much smaller: else too little would come
-/// back.
-void reject_cut(std::vector<ElementShape>& shapes, bool in_grid, double typical_side) {
+/// Elements that the exemplar's border cuts. Where most of the exemplar lies in such, those end there that are not much
+/// smaller: else too little would come back.
+void reject_cut(std::vector<ElementShape>& shapes, double typical_side) {
   double whole = 0, all = 0;
-  std::vector<int64_t> areas;
   for (const ElementShape& s : shapes) {
     all += double(s.area);
-    if (s.cut || s.area == 0) continue;
-    whole += double(s.area);
-    areas.push_back(s.area);
+    if (!s.cut) whole += double(s.area);
   }
   double least = std::numeric_limits<double>::infinity();
-  if (in_grid && !areas.empty()) {
-    const auto middle = areas.begin() + std::ptrdiff_t(areas.size() / 2);
-    std::nth_element(areas.begin(), middle, areas.end());
-    least = element_shapes_tuning->as_large * double(*middle);
-  } else if (!in_grid && whole < element_shapes_tuning->most_whole * all) {
+  if (whole < element_shapes_tuning->most_whole * all)
     least = element_shapes_tuning->least_cut * typical_side * typical_side;
-  }
   for (ElementShape& s : shapes) s.unusable |= s.cut && double(s.area) < least;
 }
 
@@ -190,12 +141,7 @@ double ElementShape::depth_between(double x, double y) const {
   return (1 - fy) * above + fy * below;
 }
 
-ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
-                             const Lattice* lattice) {
-  Size times{1, 1};
-  const bool in_courses = lattice && lattice->rank == 1 && lattice->certainty >= element_shapes_tuning->surest_courses;
-  if (in_courses && lattice->first.x() == 0) times.height = element_shapes_tuning->across;
-  if (in_courses && lattice->first.y() == 0) times.width = element_shapes_tuning->across;
+ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps) {
   ElementShapes out{.block = block, .all = std::vector<ElementShape>(size_t(elements.count))};
   const Size size{(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block};
   Grid grid{{size, wraps, wraps}, {}};
@@ -221,14 +167,13 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
   out.typical_side = std::sqrt(squares / double(size.area()));
   const int margin = std::max(2, int(element_shapes_tuning->margin * out.typical_side));
-  reject_cut(out.all, lattice && lattice->rank == 2, out.typical_side);
-  const int inset = int(std::ceil(element_shapes_tuning->inset * out.typical_side));
+  reject_cut(out.all, out.typical_side);
   tbb::parallel_for(0, elements.count, [&](int e) {
     // Blocks may miss the smallest regions.
     if (out.all[size_t(e)].area == 0)
       out.all[size_t(e)].unusable = true;
     else
-      measure(grid, e, margin, out.all[size_t(e)].cut ? inset : 0, extents[size_t(e)], times, out.all[size_t(e)]);
+      measure(grid, e, margin, extents[size_t(e)], out.all[size_t(e)]);
   });
   out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.unusable; }));
   return out;

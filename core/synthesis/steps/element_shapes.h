@@ -5,7 +5,6 @@
 
 #include "core/base/geometry.h"
 #include "core/exemplar/elements.h"
-#include "core/exemplar/lattice.h"
 
 namespace terrazzo {
 
@@ -68,10 +67,7 @@ struct ElementShapes {
   int block_shift(int shift) const { return shift >= 0 ? shift / block : -((-shift + block - 1) / block); }
 };
 
-/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may. `lattice`: elements of courses or
-/// columns (rank 1) meet others of their own: depths count more across than along them; those of a grid (rank 2) may
-/// end at the exemplar's border. Null: alike in all directions.
-ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
-                             const Lattice* lattice = nullptr);
+/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may.
+ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps);
 
 }  // namespace terrazzo
