@@ -104,7 +104,7 @@ void compute_regularity(NodeContext& node) {
   if (!labels && node.text("streaks") == "auto") add_streaks(node, *features, repeats);
   if (!labels && node.text("mode") != "off" && repeats.lattice.rank == found_rank)
     node.note(described(repeats.lattice, least));
-  if (too_few)
+  if (too_few && repeats.lattice.rank < 2)
     node.warn(
         "there is a grid of joints, but with too few tiles, or too different ones, to find its lattice: results may "
         "break tiles. Crop the exemplar to whole tiles so that it tiles, use one with more tiles, or give \"first\" "
@@ -116,9 +116,10 @@ void compute_regularity(NodeContext& node) {
                     "lies between those is laid anew where elements are",
                     courses));
   else if (single)
-    node.warn(
-        "the exemplar is a single cell of its lattice: a result repeats it as it is, with few variations. An exemplar "
-        "that shows several tiles or panels side by side helps");
+    node.warn(fmt::format(
+        "the exemplar is a single cell of its lattice: a result repeats it as it is, with few variations{}. An "
+        "exemplar that shows several tiles or panels side by side helps",
+        features->wraps() ? "" : ", and shows where its borders meet, as it does not tile"));
   node.output("features", features->with(repeats));
 }
 
@@ -143,7 +144,7 @@ std::vector<std::string> check_regularity(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 23;
+  t.version = 24;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

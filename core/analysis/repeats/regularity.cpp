@@ -105,6 +105,14 @@ struct Repetition {
   double alike = 0;  ///< how much repeats are alike
 };
 
+/// Whether what lies a step of the lattice apart is light where the other is dark: joints on both sides of stripes are
+/// alike.
+bool is_inverted(const Correlation& values, const Lattice& l) {
+  return std::ranges::any_of(std::array{l.first, l.second}, [&](const Vector2d& step) {
+    return values.covers(step.x(), step.y()) && values.at(step) < -0.5;
+  });
+}
+
 /// What repeats may be the colours or, where those vary from brick to brick, only the joints. Cells before bands, and
 /// level ones before those aslant.
 Repetition searched(const Correlation& values, const Correlation& joints, double least_certainty) {
@@ -124,8 +132,9 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
       of_values = c.lattice;
     else
       told_twice = are_alike(of_values, c.lattice);
-    if (c.distinct > cell.distinct)
-      cell = {without_false_repeats(r == &values ? joints : values, c.lattice), c.distinct};
+    if (c.distinct <= cell.distinct) continue;
+    const Lattice l = without_false_repeats(r == &values ? joints : values, c.lattice);
+    if (!is_inverted(values, l)) cell = {l, c.distinct};
   }
   if (is_sure(cell, told_twice, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
@@ -133,7 +142,7 @@ Repetition searched(const Correlation& values, const Correlation& joints, double
   // The joints on both sides of a stripe are alike: of one that comes once they tell half.
   const Bands once = single_stripes_of(values, joints);
   for (const Bands& b : {stripes_of(values), are_sure(once) ? once : stripes_of(joints)})
-    if (are_sure(b) && b.distinct > bands.distinct) bands = b;
+    if (are_sure(b) && b.distinct > bands.distinct && !is_inverted(values, b.lattice)) bands = b;
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
@@ -200,9 +209,11 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     return l.fitted(size, wraps, wraps);
   };
   // Of two courses, or columns, the joints across one are about half the exemplar long.
-  const bool two_bands = best.rank == 1 && std::lround(count_bands(best, largest.planes.size)) == 2;
-  if (best.rank < 2 && wraps && !two_bands)
-    if (const Lattice l = lattice_of_crossing_lines(largest.planes, edges.front(), task); l.rank > 0)
+  const long bands = best.rank == 1 ? std::lround(count_bands(best, largest.planes.size)) : 0;
+  if (best.rank < 2 && (wraps ? bands != 2 : out.too_few))
+    if (const Lattice l =
+            lattice_of_crossing_lines(largest.planes, edges.front(), !wraps && bands > 1 ? best.first.sum() : 0, task);
+        l.rank > 0)
       out.crossing = in_exemplar(l);
   out.has_lines = best.rank > 0 || std::ranges::any_of(edges, has_lines);
   out.lattice = best;

@@ -27,6 +27,7 @@ struct StraightLinesTuning {
   double nearly_all = 0.6;
   double least_lasting = 0.04;
   double least_straight = 0.3;
+  double least_straight_if_cut = 0.5;
   int most_repeats = 8;
 };
 const Tunable<StraightLinesTuning> straight_lines_tuning(
@@ -81,6 +82,10 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
          "that stay along those of half the exemplar, if lines are straight. Higher: unequal panels are torn; lower: "
          "clouds and blobs are repeated",
          "long_lines", 0, 1},
+        {&StraightLinesTuning::least_straight_if_cut, "least_straight_if_cut", "share of the changes along short runs",
+         "the same of an exemplar that does not tile. Higher: panels that its border cuts are torn; lower: stones and "
+         "doors are repeated with its borders",
+         "long_lines", 0, 1},
         {&StraightLinesTuning::most_repeats, "most_repeats", "lines in an exemplar",
          "higher: narrower lines are found to repeat; lower: less chance", "What each rule decides"},
     });
@@ -133,7 +138,8 @@ StraightLines shares_of(const Planes& plane, bool rows) {
   for (const double v : profile) between += v * v / length;
   double steps = 0, squares = 0;
   for (size_t i = 0; i < profile.size(); i++) {
-    const double step = profile[(i + 1) % profile.size()] - profile[i];
+    const bool ends = i + 1 == profile.size();
+    const double step = ends && !plane.wraps ? 0 : profile[ends ? 0 : i + 1] - profile[i];
     steps += step * step / 2;
     squares += profile[i] * profile[i];
   }
@@ -213,14 +219,17 @@ Lattice lattice_of_lines(const Planes& outlines, const Correlation& joints, cons
   return {1, courses ? down : right, {}, lines.share};
 }
 
-Lattice lattice_of_crossing_lines(const Planes& planes, const Planes& outlines, const Task& task) {
-  const int side = std::min(planes.size.width, planes.size.height);
+Lattice lattice_of_crossing_lines(const Planes& planes, const Planes& outlines, double bands, const Task& task) {
+  const int side = std::max(std::min(planes.size.width, planes.size.height), int(6 * bands));
   const LineChanges rows = line_changes(planes, true, side, task), columns = line_changes(planes, false, side, task);
   const double least = straight_lines_tuning->least_lasting * (rows.single + columns.single);
+  const double straight =
+      planes.wraps ? straight_lines_tuning->least_straight : straight_lines_tuning->least_straight_if_cut;
   for (const LineChanges& c : {rows, columns})
-    if (c.lasting <= least || c.lasting < straight_lines_tuning->least_straight * c.brief) return {};
+    if (c.lasting <= least || c.lasting < straight * c.brief) return {};
   const StraightLines down = straight_lines_of(outlines, true), along = straight_lines_of(outlines, false);
   if (std::min(down.sharp, along.sharp) < straight_lines_tuning->least_sharp) return {};
+  if (!planes.wraps) return {2, {double(planes.size.width), 0}, {0, double(planes.size.height)}, 1};
   return {2, {along.period, 0}, {0, down.period}, 1};
 }
 

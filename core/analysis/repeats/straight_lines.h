@@ -25,10 +25,11 @@ bool has_edges_between(const Planes& outlines, bool rows);
 /// Whether straight lines run from border to border in both directions, as joints between tiles, or posts around
 /// boards.
 bool lines_cross(const Planes& outlines);
-/// The lattice of a tileable exemplar in which straight lines of half its side and more run in both directions,
-/// wherever they end, so that what lies between them is in no courses: one cell, or several if lines repeat. Rank 0 if
-/// there are no such lines. Throws Cancelled.
-Lattice lattice_of_crossing_lines(const Planes& planes, const Planes& outlines, const Task& task);
+/// The lattice of an exemplar in which straight lines of half its side and more run in both directions, wherever they
+/// end, so that what lies between them is in no courses: one cell, or several if it tiles and lines repeat. Rank 0 if
+/// there are no such lines. `bands`: the step, in pixels, of courses or columns of which there are several, or 0: lines
+/// must go on across three of them, since boards' joints need not. Throws Cancelled.
+Lattice lattice_of_crossing_lines(const Planes& planes, const Planes& outlines, double bands, const Task& task);
 /// Whether lines run from border to border in one direction at least, as joints between courses.
 bool has_lines(const Planes& outlines);
 

@@ -17,6 +17,7 @@ class PaddedLevel {
 
   Size size() const { return size_; }
   int stride() const { return stride_; }
+  bool wraps() const { return wraps_; }
   /// Valid for coordinates up to `margin` outside the level.
   const AppearanceVector* at(int x, int y) const {
     return &vectors_[size_t(y + margin) * stride_ + size_t(x + margin)];

@@ -42,6 +42,11 @@ struct CorrectionLevel {
   bool holds(int u, int v) const {
     return exemplar.holds(u, v) && (block == 1 || exemplar.holds(u + block - 1, v + block - 1));
   }
+  /// The same of an exemplar that tiles around its border: the position is moved into it.
+  bool goes_on(int& u, int& v) const {
+    exemplar.unwind(u, v);
+    return exemplar.wraps() ? exemplar.is_usable(u, v) : holds(u, v);
+  }
   /// Whether a pixel that shows `now` may come to show something usable instead: it is not fixed, does not get its past
   /// back, and suits the controls no less. `pixel`: of a field that holds the whole plane.
   bool may_change(int pixel, const ExemplarPixel& now, const ExemplarPixel& offered) const {

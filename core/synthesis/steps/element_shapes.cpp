@@ -99,9 +99,8 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Element
       for (int x = shape.box.x + first; x < shape.box.right(); x += step) visit(x, y);
   };
   std::vector<uint8_t> inside;
-  for_blocks(0, 1, [&](int x, int y) {
-    inside.push_back(grid.region(x + shape.centre_x, y + shape.centre_y) == element);
-  });
+  for_blocks(0, 1,
+             [&](int x, int y) { inside.push_back(grid.region(x + shape.centre_x, y + shape.centre_y) == element); });
   shape.depths = signed_distances(inside, {shape.box.width, shape.box.height}, false, 1e6f);
   for (float& depth : shape.depths) depth = -depth;
   shape.inner_radius = std::max(shape.inner_radius, std::ranges::max(shape.depths));

@@ -221,6 +221,7 @@ Field expanded(std::span<const ExemplarPixel> starts, const PlaneWindow& from, c
       const int x = to.part.x + column;
       const ExemplarPixel p = line[from.column(x >> 1)];
       int u = p.x + (x & 1), v = p.y + (y & 1);
+      exemplar.unwind(u, v);
       exemplar.settle(u, v);
       field.at(column, row) = {uint16_t(u), uint16_t(v)};
     }

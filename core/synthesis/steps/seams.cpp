@@ -71,10 +71,11 @@ class SeamMover {
     ExemplarPixel shown;
   };
 
-  /// Steps to the exemplar's neighbour on that side, if it has one.
+  /// Steps to the exemplar's neighbour on that side, around its border if it tiles, if it has one.
   bool step(ExemplarPixel& p, int side) const {
-    const int block = problem_.level.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
-    if (!problem_.level.holds(x, y)) return false;
+    const int block = problem_.level.block;
+    int x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
+    if (!problem_.level.goes_on(x, y)) return false;
     p = {uint16_t(x), uint16_t(y)};
     return true;
   }

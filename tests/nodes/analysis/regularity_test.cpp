@@ -255,13 +255,14 @@ TEST_CASE("a few tiles in an exemplar that tiles are a lattice") {
   CHECK(repeats_by(l, 0, 48));
 }
 
-TEST_CASE("an exemplar that is one tile is a cell, a cut from a larger tile is not") {
+TEST_CASE("an exemplar that is one tile is a cell, a cut from within a larger tile is not") {
   const Lattice one = lattice_of(features_of({96, 80}, tiles(96, 80), true));
   REQUIRE(one.rank == 2);
   CHECK(repeats_by(one, 96, 0));
   CHECK(repeats_by(one, 0, 80));
   CHECK(std::abs(one.first.x() * one.second.y() - one.first.y() * one.second.x()) == doctest::Approx(96 * 80));
-  CHECK(lattice_of(features_of({96, 80}, tiles(500, 500), false)).rank == 0);
+  const auto within = [](int x, int y) { return tiles(500, 500)(x + 100, y + 100); };
+  CHECK(lattice_of(features_of({96, 80}, within, false)).rank == 0);
 }
 
 TEST_CASE("two boards of an exemplar that tiles are courses, though their grain is finer") {

@@ -85,6 +85,26 @@ TEST_CASE("a few shades of a ground are no courses, painted stripes are") {
   CHECK(bands_found(ground(false)).rank == 0);
 }
 
+TEST_CASE("stripes aslant repeat with their colours, not with their edges, which are alike on both sides") {
+  constexpr int period = 64;
+  for (const auto& [spot, seed] : {std::pair{6, 1}, {10, 2}, {24, 1}}) {
+    CAPTURE(spot);
+    const auto spots = [=](double x, double y) {
+      const int i = int(x / spot), j = int(y / spot);
+      const double u = x / spot - i, v = y / spot - j;
+      const auto at = [&](int k, int l) { return unit_double(random_bits(uint64_t(seed), i + k, j + l)); };
+      return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+    };
+    const Lattice l = bands_found(plain_features(make_image({256, 256}, 1, [&](int x, int y, int) {
+      const double stripe = (x + y) % period < period / 2 ? 1 : 0;
+      return float(stripe + 0.1 * unit_double(random_bits(9, x, y)) + 0.3 * spots(x, y));
+    })));
+    REQUIRE(l.rank == 2);
+    for (const Vector2d& step : {l.first, l.second})
+      CHECK(std::abs(step.sum() / period - std::round(step.sum() / period)) < 0.05);
+  }
+}
+
 TEST_CASE("a stripe aslant that comes once around an exemplar that tiles goes on, a soft one does not") {
   const auto striped = [](bool painted, double rise) {
     return plain_features(make_image({128, 128}, 1,

@@ -173,7 +173,7 @@ TEST_CASE("clouds that fade over many lines are no cells, joints across them are
   CHECK(find_lattice(*surface(false), 0.08, Task()).lattice.rank == 2);
 }
 
-TEST_CASE("boards between posts are told of, boards from border to border are not") {
+TEST_CASE("boards between posts are one cell, also if they do not tile, boards from border to border are courses") {
   const auto boards = [](bool posts) {
     return plain_features(make_image({192, 192}, 1, [posts](int x, int y, int) {
       const double grain = 0.3 * unit_double(random_bits(7, y / 2, (x + 17 * y) / 30));
@@ -185,7 +185,8 @@ TEST_CASE("boards between posts are told of, boards from border to border are no
   for (const bool posts : {true, false}) {
     CAPTURE(posts);
     const FoundLattice found = find_lattice(*boards(posts), 0.08, Task());
-    CHECK(found.lattice.rank == 1);
+    CHECK(found.lattice.rank == (posts ? 2 : 1));
+    CHECK(found.lattice.is_single_cell({192, 192}) == posts);
     CHECK(found.too_few == posts);
   }
 }
@@ -196,7 +197,7 @@ TEST_CASE("unequal panels between joints that run half the exemplar in both dire
     bool level;
     int at, from, to;
   };
-  const auto find = [](const std::vector<Joint>& joints) {
+  const auto find = [](const std::vector<Joint>& joints, bool wraps = true) {
     return find_lattice(*plain_features(make_image({192, 192}, 1,
                                                    [&](int x, int y, int) {
                                                      const double grain = 0.3 * unit_double(random_bits(4, x, y));
@@ -208,18 +209,17 @@ TEST_CASE("unequal panels between joints that run half the exemplar in both dire
                                                      }
                                                      return float(0.6 + grain);
                                                    }),
-                                        true),
+                                        wraps),
                         0.08, Task())
         .lattice;
   };
-  const Lattice panels = find({{true, 10, 0, 192},
-                               {true, 78, 30, 150},
-                               {true, 131, 0, 96},
-                               {false, 30, 10, 131},
-                               {false, 96, 78, 192},
-                               {false, 150, 10, 192},
-                               {false, 121, 78, 192}});
-  CHECK(panels.is_single_cell({192, 192}));
+  const std::vector<Joint> panels = {{true, 10, 0, 192},   {true, 78, 30, 150},  {true, 131, 0, 96},
+                                     {false, 30, 10, 131}, {false, 96, 78, 192}, {false, 150, 10, 192},
+                                     {false, 121, 78, 192}};
+  CHECK(find(panels).is_single_cell({192, 192}));
+  // Of an exemplar that does not tile, lines must go on for longer.
+  const std::vector<Joint> rail = {{true, 24, 0, 192}, {false, 60, 28, 190}, {false, 110, 28, 190}};
+  CHECK(find(rail, false).is_single_cell({192, 192}));
   std::vector<Joint> courses;
   for (int course = 0; course < 8; course++) {
     courses.push_back({true, 24 * course, 0, 192});

@@ -28,13 +28,16 @@ double whole_share(const UvMap& uv, const Appearance& appearance) {
   return double(shown.whole) / shown.all;
 }
 
-/// The courses that a line across a result shows, one after the other.
+/// The courses that a line across a result shows, one after the other, but for the joints between them.
 std::vector<int> courses_of(const UvMap& uv, bool turned) {
   std::vector<int> out;
+  int before = -1, run = 0;
   for (int v = 0; v < (turned ? uv.size().width : uv.size().height); v++) {
     const ExemplarPixel p = turned ? uv.at(v, 5) : uv.at(5, v);
     const int course = DrawnPanels::course_at(turned ? p.x : p.y);
-    if (out.empty() || out.back() != course) out.push_back(course);
+    run = course == before ? run + 1 : 1;
+    before = course;
+    if (run == 8 && (out.empty() || out.back() != course)) out.push_back(course);
   }
   return out;
 }

@@ -6,8 +6,10 @@
 
 #include "core/base/hash.h"
 #include "core/synthesis/state/pieces.h"
+#include "core/synthesis/synthesize.h"
 #include "tests/core/synthesis/fields.h"
 #include "tests/core/synthesis/noise.h"
+#include "tests/exemplars.h"
 #include "tests/run_node.h"
 
 using namespace terrazzo;
@@ -195,4 +197,23 @@ TEST_CASE("a large piece swallows a small one, unless to be large or far from it
   CHECK(left_of_small(0, 0) == 0);
   CHECK(left_of_small(50, 0) >= 36);
   CHECK(left_of_small(0, 8) == 36);
+}
+
+TEST_CASE("all of an exemplar that tiles in cells is shown about as often, what lies at its border, too") {
+  // Cells of 64 pixels that are alike but for some grain.
+  const ImagePtr image = test::make_image({128, 128}, 1, [](int x, int y, int) {
+    return float(unit_double(random_bits(1, x % 64 / 2, y % 64 / 2)) + 0.8 * unit_double(random_bits(2, x / 2, y / 2)));
+  });
+  const FeaturesPtr features = test::plain_features(image, true)->with(Lattice{2, {64, 0}, {0, 64}, 1});
+  const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+  const Size size{640, 640};
+  const UvMapPtr uv = synthesize(*index, {.size = size, .seed = 1}, Task());
+  int middle = 0;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const ExemplarPixel p = uv->at(x, y);
+      middle += p.x >= 32 && p.x < 96 && p.y >= 32 && p.y < 96;
+    }
+  const double share = double(middle) / double(size.area());
+  CHECK(share == doctest::Approx(0.25).epsilon(0.2));
 }
