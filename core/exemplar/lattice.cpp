@@ -30,7 +30,7 @@ const Tunable<LatticeTuning> lattice_tuning(
         {&LatticeTuning::smallest_resolved, "smallest_resolved", "pixels of the level",
          "from which on a cell is large enough to tell places within it apart. Higher: more levels only keep to whole "
          "cells; lower: cells of few pixels decide what fits",
-         "not measured: taken over from the code before constants were listed"},
+         "k_coherence"},
         {&LatticeTuning::smallest_cell, "smallest_cell", "pixels of the level",
          "finer cells have no say: finer levels bring pieces into place. Higher: cells are broken up at coarse levels; "
          "lower: so few places are in phase that the same rows come back all over a large surface",
@@ -47,7 +47,7 @@ const Tunable<LatticeTuning> lattice_tuning(
         {&LatticeTuning::certainty_counts, "certainty_counts", "share",
          "of the looseness that a certain lattice takes away: the surer it is, the less its cells differ. Higher: sure "
          "lattices are kept to; lower: pieces fit better",
-         "not measured: taken over from the code before constants were listed", 0, 1},
+         "k_coherence", 0, 1},
         {&LatticeTuning::most_slanted, "most_slanted", "share of their length",
          "by which level courses rise. Higher: walls that were not scanned level have courses; lower: patterns aslant "
          "have none",

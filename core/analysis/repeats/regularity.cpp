@@ -105,11 +105,15 @@ struct Repetition {
   double alike = 0;  ///< how much repeats are alike
 };
 
+// What lies half a period of stripes apart is nearly -1, tiles of four colours at random -1/3 (experiments.md,
+// "regularity").
+constexpr double most_inverted = -0.5;
+
 /// Whether what lies a step of the lattice apart is light where the other is dark: joints on both sides of stripes are
 /// alike.
 bool is_inverted(const Correlation& values, const Lattice& l) {
   return std::ranges::any_of(std::array{l.first, l.second}, [&](const Vector2d& step) {
-    return values.covers(step.x(), step.y()) && values.at(step) < -0.5;
+    return values.covers(step.x(), step.y()) && values.at(step) < most_inverted;
   });
 }
 

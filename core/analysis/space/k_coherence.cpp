@@ -25,39 +25,37 @@ struct KCoherenceTuning {
   int tries = 8;
 };
 const Tunable<KCoherenceTuning> k_coherence_tuning(
-    "k_coherence", {
-                       {&KCoherenceTuning::exhaustive_area, "exhaustive_area", "pixels of a level",
-                        "up to which all places are compared. Higher: the most similar are found for certain; costs "
-                        "time, with its square",
-                        "not measured: bounds the time"},
-                       {&KCoherenceTuning::rounds, "rounds", "rounds",
-                        "of the search. Higher: more similar pixels are found; costs time", "k_coherence", 0, 14},
-                       {&KCoherenceTuning::searched_side, "searched_side", "pixels",
-                        "of a level, within which one with a coarser one looks for new places. Higher: it looks "
-                        "farther, where its parent has done that; lower: less time",
-                        "not measured: taken over from the code before constants were listed"},
-                       {&KCoherenceTuning::apart, "apart", "pixels in x or y",
-                        "between members of a set. Higher: more different candidates; lower: more similar ones",
-                        "not measured: taken over from the code before constants were listed"},
-                       {&KCoherenceTuning::finest_searched, "finest_searched", "level",
-                        "lower: the finest level has similar pixels, too, which brings nothing, as only seams still "
-                        "move there; costs time and memory. Higher: seams of regular exemplars break",
-                        "k_coherence"},
-                       {&KCoherenceTuning::tile_side, "tile_side", "pixels",
-                        "that one thread goes through in order. Higher: what neighbours found gets farther; lower: "
-                        "more threads have work",
-                        "not measured: taken over from the code before constants were listed", 1},
-                       {&KCoherenceTuning::least_away, "least_away", "pixels in x or y",
-                        "of a pixel, within which all is too similar to be of use. Higher: more different candidates; "
-                        "lower: tiny exemplars have more",
-                        "not measured: taken over from the code before constants were listed"},
-                       {&KCoherenceTuning::away, "away", "parts of the shorter side",
-                        "the same. Higher: nearer candidates; lower: more different ones",
-                        "not measured: taken over from the code before constants were listed", 1},
-                       {&KCoherenceTuning::tries, "tries", "random places for each member",
-                        "that a set is begun with. Higher: sets are full; costs time",
-                        "not measured: taken over from the code before constants were listed"},
-                   });
+    "k_coherence",
+    {
+        {&KCoherenceTuning::exhaustive_area, "exhaustive_area", "pixels of a level",
+         "up to which all places are compared. Higher: the most similar are found for certain; costs "
+         "time, with its square",
+         "not measured: bounds the time"},
+        {&KCoherenceTuning::rounds, "rounds", "rounds",
+         "of the search. Higher: more similar pixels are found; costs time", "k_coherence", 0, 14},
+        {&KCoherenceTuning::searched_side, "searched_side", "pixels",
+         "of a level, within which one with a coarser one looks for new places. Higher: it looks "
+         "farther, where its parent has done that; lower: less time",
+         "k_coherence"},
+        {&KCoherenceTuning::apart, "apart", "pixels in x or y",
+         "between members of a set. Higher: more different candidates; lower: more similar ones", "k_coherence"},
+        {&KCoherenceTuning::finest_searched, "finest_searched", "level",
+         "lower: the finest level has similar pixels, too, which brings nothing, as only seams still "
+         "move there; costs time and memory. Higher: seams of regular exemplars break",
+         "k_coherence"},
+        {&KCoherenceTuning::tile_side, "tile_side", "pixels",
+         "that one thread goes through in order. Higher: what neighbours found gets farther; lower: "
+         "more threads have work",
+         "k_coherence", 1},
+        {&KCoherenceTuning::least_away, "least_away", "pixels in x or y",
+         "of a pixel, within which all is too similar to be of use. Higher: more different candidates; "
+         "lower: tiny exemplars have more",
+         "k_coherence"},
+        {&KCoherenceTuning::away, "away", "parts of the shorter side",
+         "the same. Higher: nearer candidates; lower: more different ones", "k_coherence", 1},
+        {&KCoherenceTuning::tries, "tries", "random places for each member",
+         "that a set is begun with. Higher: sets are full; costs time", "k_coherence"},
+    });
 
 constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
 
