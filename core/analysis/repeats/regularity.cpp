@@ -247,8 +247,8 @@ ElementsPtr surely_found_elements(const Features& features, const Task& task) {
   return elements && elements->certainty >= sure_elements ? elements : nullptr;
 }
 
-int count_courses(const Elements& elements) {
-  return int(element_courses(elements, true).bands.size());
+int count_courses(const Elements& elements, const Features& features) {
+  return int(element_courses(elements, features.wraps()).bands.size());
 }
 
 }  // namespace
@@ -267,7 +267,7 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
     else if (l.rank < 2 && joints_cross(*elements))
       out.lattice = {2, {double(size.width), 0}, {0, double(size.height)}, 1};
   }
-  if (out.lattice.is_single_cell(size)) out.courses = count_courses(*elements);
+  if (out.lattice.is_single_cell(size)) out.courses = count_courses(*elements, features);
   return out;
 }
 
@@ -278,7 +278,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
   if (found.lattice.rank > 1 || found.crossing.rank == 0 || features.mask()) return found;
   const ElementsPtr elements = surely_found_elements(features, task);
-  const int courses = elements ? count_courses(*elements) : 0;
+  const int courses = elements ? count_courses(*elements, features) : 0;
   if (found.lattice.rank == 1 && courses > 0) return found;  // boards, say, whose joints are as long
   found.lattice = found.crossing;
   if (found.lattice.is_single_cell(features.size())) found.courses = courses;

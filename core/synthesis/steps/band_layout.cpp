@@ -17,12 +17,7 @@ class BandLayout {
  public:
   BandLayout(Field& field, const CorrectionLevel& level, const Appearance& appearance, const ElementCourses& courses,
              uint64_t bits)
-      : field_(field),
-        level_(level),
-        looks_(appearance.levels().front()),
-        courses_(courses),
-        bits_(bits),
-        tiles_(appearance.wraps()) {
+      : field_(field), level_(level), looks_(appearance.levels().front()), courses_(courses), bits_(bits) {
     const Size exemplar = level.exemplar.size();
     along_ = line(exemplar.width, exemplar.height, field.size.width, field.size.height, level.window.closed_x,
                   level.window.closed_y);
@@ -72,8 +67,6 @@ class BandLayout {
       }
   }
 
-  /// What tiles goes on beyond its border, also within a block.
-  bool holds(int u, int v) const { return tiles_ ? level_.exemplar.is_usable(u, v) : level_.holds(u, v); }
   bool is_fixed(int64_t i) const {
     const int width = field_.size.width;
     return level_.is_fixed(int(i % width), int(i / width));
@@ -145,8 +138,7 @@ class BandLayout {
       for_pixels(band, piece, [&](int64_t i, int along, int across) {
         int u = along + piece.shift(along), v = across + band.shift(across) + beside;
         if (courses_.upright) std::swap(u, v);
-        level_.exemplar.unwind(u, v);
-        if (!is_fixed(i) && holds(u, v)) field_.pixels[size_t(i)] = {uint16_t(u), uint16_t(v)};
+        if (!is_fixed(i) && level_.goes_on(u, v)) field_.pixels[size_t(i)] = {uint16_t(u), uint16_t(v)};
       });
     }
   }
@@ -177,7 +169,6 @@ class BandLayout {
   const AppearanceLevel& looks_;
   const ElementCourses& courses_;
   uint64_t bits_;
-  bool tiles_;
   SpanLine along_, across_;
   std::map<std::pair<double, double>, int> used_;  // how often each piece has been shown
 };
