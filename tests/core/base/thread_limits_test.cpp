@@ -47,12 +47,6 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value) {
   ::setrlimit(resource, &both);
 }
 
-rlim_t address_space() {
-  size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return rlim_t(pages) * rlim_t(::sysconf(_SC_PAGESIZE));
-}
-
 }  // namespace
 
 TEST_CASE("threads that can be started are no error") {
@@ -64,7 +58,10 @@ TEST_CASE("threads that can be started are no error") {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("threads that cannot be started are an error that names the limit") {
   const std::string said = error_in_child([] {
-    limit(RLIMIT_AS, address_space() + (rlim_t{20} << 20));  // two stacks of 8 MiB, and some that are kept
+    size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t address_space = rlim_t(pages) * rlim_t(::sysconf(_SC_PAGESIZE));
+    limit(RLIMIT_AS, address_space + (rlim_t{20} << 20));  // two stacks of 8 MiB, and some that are kept
     require_threads(64);
   });
   CHECK(said.starts_with("cannot start threads: 64 needed, the system started "));
