@@ -99,8 +99,10 @@ std::vector<Planes> gaussian_pyramid(Planes finest, int levels, const Task& task
   std::vector<Planes> out;
   out.push_back(std::move(finest));
   while (int(out.size()) < levels) {
-    const Planes smooth = blurred(out.back(), 0.9, Beyond::mirrored, task);
-    Planes half = Planes::zeros({(smooth.size.width + 1) / 2, (smooth.size.height + 1) / 2}, smooth.channels);
+    const Planes& fine = out.back();
+    const Planes smooth = blurred(fine, 0.9, fine.wraps ? Beyond::as_it_wraps : Beyond::mirrored, task);
+    const bool wraps = fine.wraps && fine.size.width % 2 == 0 && fine.size.height % 2 == 0;
+    Planes half = Planes::zeros({(fine.size.width + 1) / 2, (fine.size.height + 1) / 2}, fine.channels, wraps);
     for (int y = 0; y < half.size.height; y++)
       for (int x = 0; x < half.size.width; x++) std::copy_n(smooth.at(2 * x, 2 * y), smooth.channels, half.at(x, y));
     out.push_back(std::move(half));

@@ -41,7 +41,7 @@ Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& tas
 Planes box_blurred(Planes image, double sigma, const Task& task);
 
 /// A pyramid, finest level first. Each level is half the size of the previous one (blurred with sigma 0.9, every second
-/// pixel kept). Throws Cancelled.
+/// pixel kept), and wraps if that one does and its sides are even. Throws Cancelled.
 std::vector<Planes> gaussian_pyramid(Planes finest, int levels, const Task& task);
 
 /// Resizes: linear interpolation when growing, an area-weighted mean when shrinking.

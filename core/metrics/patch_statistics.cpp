@@ -99,14 +99,15 @@ double mean_of(const std::vector<double>& values) {
 /// Windows of an image, and a sample of them, projected.
 struct Windows {
   const Planes& image;
+  Size period;  ///< of windows that go on around its border; else 0
   const Projection& space;
   PatchList sample;
   std::vector<float> rows;  ///< of the sample
 };
 
-Windows sampled_windows(const Planes& image, const Projection& space, PatchList sample, const Task& task) {
+Windows sampled_windows(const Planes& image, Size period, const Projection& space, PatchList sample, const Task& task) {
   std::vector<float> rows = project(image, sample, space, task);
-  return {image, space, std::move(sample), std::move(rows)};
+  return {image, period, space, std::move(sample), std::move(rows)};
 }
 
 double squared_distance(const float* a, const float* b, int count) {
@@ -162,7 +163,12 @@ class WindowSearch {
   bool counts(size_t query, Place p) const {
     if (!is_own()) return true;
     const Place q = place_of_query(query);
-    return std::max(std::abs(p.x - q.x), std::abs(p.y - q.y)) >= windows_.space.step;
+    const auto apart = [](int a, int b, int period) {
+      const int d = std::abs(a - b);
+      return period > 0 ? std::min(d, period - d) : d;
+    };
+    return std::max(apart(p.x, q.x, windows_.period.width), apart(p.y, q.y, windows_.period.height)) >=
+           windows_.space.step;
   }
 
   void search(const NearestPoints& tree) {
@@ -178,6 +184,8 @@ class WindowSearch {
 
   /// Takes windows that are nearer than what was found. Returns the queries that took one.
   std::vector<uint32_t> take_nearer(std::vector<Offer> offers) {
+    if (windows_.period.width > 0)
+      for (Offer& o : offers) o.place = {wrap(o.place.x, places_.width), wrap(o.place.y, places_.height)};
     std::erase_if(offers, [&](const Offer& o) {
       return o.place.x < 0 || o.place.y < 0 || o.place.x >= places_.width || o.place.y >= places_.height ||
              !counts(o.query, o.place);
@@ -259,7 +267,8 @@ class WindowSearch {
 
 }  // namespace
 
-double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
+double sliced_wasserstein(const Planes& tile, const Planes& output, const Task& task) {
+  const Planes exemplar = with_windows_across(tile);
   const int directions = 8 * patch_statistics_tuning->eights_of_directions,
             quantiles = patch_statistics_tuning->quantiles;
   const auto sliced_patches = size_t(patch_statistics_tuning->sliced_patches);
@@ -281,14 +290,16 @@ double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Ta
   return mean_of(distance);
 }
 
-PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, int step, const Task& task) {
+PatchSimilarity patch_similarity(const Planes& tile, const Planes& output, int step, const Task& task) {
+  const Planes exemplar = with_windows_across(tile, step);
   const auto pool = size_t(patch_statistics_tuning->pool);
   const int dimensions = 8 * patch_statistics_tuning->eights_of_dimensions;
   PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed, step);
   PatchList from_output = random_patches(output.size, pool, output_seed(exemplar, output), step);
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task, step);
-  const Windows e = sampled_windows(exemplar, space, std::move(from_exemplar), task);
-  const Windows o = sampled_windows(output, space, std::move(from_output), task);
+  const Size period = tile.wraps ? tile.size : Size{};
+  const Windows e = sampled_windows(exemplar, period, space, std::move(from_exemplar), task);
+  const Windows o = sampled_windows(output, {}, space, std::move(from_output), task);
   std::array<std::unique_ptr<NearestPoints>, 2> trees;
   tbb::parallel_invoke([&] { trees[0] = std::make_unique<NearestPoints>(e.rows, dimensions); },
                        [&] { trees[1] = std::make_unique<NearestPoints>(o.rows, dimensions); });

@@ -7,7 +7,7 @@ namespace terrazzo {
 
 /// The sliced Wasserstein-1 distance (Rabin et al. 2011) between the 7x7 patch distributions of two images with the
 /// same channels, each slice in units of the exemplar's standard deviation. 0 = the same patches in the same
-/// proportions. Throws Cancelled.
+/// proportions. Windows of an exemplar that wraps go on around its border, here and below. Throws Cancelled.
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task);
 
 /// Bidirectional patch similarity (Simakov et al. 2008), in units of the mean distance between exemplar patches: of

@@ -51,6 +51,16 @@ Size patch_positions(Size image, int step) {
   return {image.width - reach, image.height - reach};
 }
 
+Planes with_windows_across(const Planes& image, int step) {
+  if (!image.wraps) return image;
+  const int by = (patch_side - 1) * step;
+  Planes out = Planes::zeros({image.size.width + by, image.size.height + by}, image.channels);
+  for (int y = 0; y < out.size.height; y++)
+    for (int x = 0; x < out.size.width; x++)
+      std::copy_n(image.at(image.column(x), image.row(y)), image.channels, out.at(x, y));
+  return out;
+}
+
 PatchList all_patches(Size image, int step) {
   PatchList out(size_t(patch_positions(image, step).area()));
   std::iota(out.begin(), out.end(), 0u);

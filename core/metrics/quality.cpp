@@ -97,9 +97,7 @@ double structure_of(const Pyramids& pyramids, const QualityParts& parts, const T
   const double element = parts.element > 0 ? parts.element : 4 * correlation_length(pyramids.exemplar[0], task);
   const StructureWindow w =
       structure_window(element, {std::min(size.width, output.width), std::min(size.height, output.height)});
-  const int whole_steps = 1 << w.level;
-  const bool wraps = parts.wraps && size.width % whole_steps == 0 && size.height % whole_steps == 0;
-  return foreign_structure(pyramids.exemplar[w.level], pyramids.output[w.level], w.step, wraps, task);
+  return foreign_structure(pyramids.exemplar[w.level], pyramids.output[w.level], w.step, task);
 }
 
 /// On several levels. A reduced image shows a whole piece only if it lies at the right pixel, so these are smoothed for
@@ -109,7 +107,7 @@ void add_patch_similarity(Planes exemplar, Planes output, int levels, QualityFig
     const int step = 1 << i;
     if (i > 0)
       for (Planes* image : {&exemplar, &output})
-        *image = blurred(*image, pyramid_sigma * step / 2, Beyond::mirrored, task);
+        *image = blurred(*image, pyramid_sigma * step / 2, image->wraps ? Beyond::as_it_wraps : Beyond::mirrored, task);
     const PatchSimilarity s = patch_similarity(exemplar, output, step, task);
     q.coherence += s.coherence / levels;
     q.completeness += s.completeness / levels;

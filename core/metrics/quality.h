@@ -32,10 +32,10 @@ inline constexpr int largest_measured = 2048;
 struct QualityParts {
   bool verbatim = true;  ///< measure `verbatim`; unnecessary with a uv map
   double element = 0;    ///< side of its typical element in pixels; 0: four times its correlation_length
-  bool wraps = false;    ///< it tiles
 };
 
-/// Both images have the same channels and at least smallest_measured pixels a side. Deterministic. Thread-safe; throws
+/// Both images have the same channels and at least smallest_measured pixels a side. Of an exemplar that wraps, patches
+/// and structure are also looked for across its border. Deterministic. Thread-safe; throws
 /// Cancelled.
 QualityFigures measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task);
 

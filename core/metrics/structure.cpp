@@ -102,21 +102,12 @@ Planes edge_channels(Planes tensor, float half) {
   return tensor;
 }
 
-/// The image continued periodically by `by` pixels to the right and below.
-Planes continued(const Planes& image, int by) {
-  Planes out = Planes::zeros({image.size.width + by, image.size.height + by}, image.channels);
-  for (int y = 0; y < out.size.height; y++)
-    for (int x = 0; x < out.size.width; x++)
-      std::copy_n(image.at(image.column(x), image.row(y)), image.channels, out.at(x, y));
-  return out;
-}
-
 /// The exemplar's windows, searched for nearest neighbours.
 class ExemplarWindows {
  public:
   ExemplarWindows(const Planes& edges, int step, const Task& task)
       : step_(step), task_(task), period_(edges.wraps ? edges.size : Size{}) {
-    const Planes image = edges.wraps ? continued(edges, (patch_side - 1) * step) : inner(edges, step);
+    const Planes image = edges.wraps ? with_windows_across(edges, step) : inner(edges, step);
     across_ = patch_positions(image.size, step).width;
     patches_ = random_patches(image.size, size_t(structure_tuning->pool), structure_seed, step);
     space_ = principal_projection(image, patches_, 8 * structure_tuning->eights_of_dimensions, task, step);
@@ -191,8 +182,7 @@ StructureWindow structure_window(double element, Size exemplar) {
   return out;
 }
 
-double foreign_structure(Planes exemplar, const Planes& output, int step, bool wraps, const Task& task) {
-  exemplar.wraps = wraps;
+double foreign_structure(const Planes& exemplar, const Planes& output, int step, const Task& task) {
   Planes tensor = structure_tensor(exemplar, step, task);
   const float half = usual_strength(tensor);
   const ExemplarWindows windows(edge_channels(std::move(tensor), half), step, task);

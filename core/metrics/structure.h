@@ -24,8 +24,8 @@ StructureWindow structure_window(double element, Size exemplar);
 /// own windows are from the nearest one that does not overlap them. So another sample of the same texture scores about
 /// 0.05; copies score less.
 ///
-/// `exemplar` and `output`: one level of their pyramids. `wraps`: windows of the exemplar wrap around its border.
+/// `exemplar` and `output`: one level of their pyramids. Windows of an exemplar that wraps go on around its border.
 /// Throws Cancelled.
-double foreign_structure(Planes exemplar, const Planes& output, int step, bool wraps, const Task& task);
+double foreign_structure(const Planes& exemplar, const Planes& output, int step, const Task& task);
 
 }  // namespace terrazzo

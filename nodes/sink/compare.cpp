@@ -183,8 +183,8 @@ void compute_compare(NodeContext& node) {
   const bool is_whole = planes.exemplar.size == exemplar->size();
   const QualityParts parts{
       .verbatim = !layout,
-      .element = elements ? typical_side(*elements) * exemplar->size().width / elements->size.width : 0,
-      .wraps = wraps && is_whole};
+      .element = elements ? typical_side(*elements) * exemplar->size().width / elements->size.width : 0};
+  planes.exemplar.wraps = wraps && is_whole;
   const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
 
   std::optional<HybridElements> hybrids;
@@ -228,7 +228,7 @@ std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, 
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 7;
+  t.version = 8;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
@@ -262,7 +262,8 @@ NodeType compare_node() {
       {.name = "wraps",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "The exemplar tiles: crossing its border is not a seam. Most uv maps say so themselves."},
+       .help = "The exemplar tiles: crossing its border is no seam, and what lies across it is also looked for in the "
+               "output. Most uv maps say so themselves."},
       {.name = "tileable",
        .type = ParamType::choice,
        .fallback = "auto",

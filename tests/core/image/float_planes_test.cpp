@@ -83,6 +83,23 @@ TEST_CASE("a pyramid halves its levels, rounding up") {
   CHECK(levels[2].size == Size{10, 5});
 }
 
+TEST_CASE("a pyramid of an image that tiles is the same wherever the image begins, as long as its sides are even") {
+  Planes tile = bricks({36, 40}, 1), moved = Planes::zeros(tile.size, 1, true);
+  tile.wraps = true;
+  for (int y = 0; y < 40; y++)
+    for (int x = 0; x < 36; x++) moved.at(x, y)[0] = tile.at(wrap(x + 16, 36), wrap(y + 8, 40))[0];
+  const auto a = gaussian_pyramid(tile, 4, Task()), b = gaussian_pyramid(moved, 4, Task());
+  for (int level = 0; level < 3; level++) {
+    const Size size = a[level].size;
+    CHECK(a[level].wraps);
+    for (int y = 0; y < size.height; y++)
+      for (int x = 0; x < size.width; x++)
+        CHECK(*b[level].at(x, y) ==
+              doctest::Approx(*a[level].at(wrap(x + (16 >> level), size.width), wrap(y + (8 >> level), size.height))));
+  }
+  CHECK_FALSE(a[3].wraps);
+}
+
 TEST_CASE("shrinking by a whole factor gives the mean of each block, and growing a ramp keeps it a ramp") {
   Planes ramp = Planes::zeros({8, 4}, 1);
   for (int y = 0; y < 4; y++)

@@ -35,8 +35,9 @@ Planes with_disc(Planes image) {
   return image;
 }
 
-QualityFigures measured(const Planes& exemplar, const Planes& output) {
+QualityFigures measured(const Planes& exemplar, const Planes& output, bool wraps = false) {
   ComparedPlanes planes = compared_planes(*material(exemplar), *material(output), {});
+  planes.exemplar.wraps = wraps;
   return measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
 }
 
@@ -99,6 +100,21 @@ TEST_CASE("pieces are as good at any pixel") {
     CHECK(q.completeness < 0.05);
     CHECK(q.broken < 0.04);
   }
+}
+
+TEST_CASE("what lies across the border of an exemplar that tiles is part of it") {
+  const Planes exemplar = bricks({128, 128}, 1), tiling = tiled(exemplar, {259, 259});
+  for (int by = 0; by < 4; by++) {
+    CAPTURE(by);
+    const Planes part = part_of(tiling, {by, by, 256, 256});
+    const QualityFigures q = measured(exemplar, part, true), cut = measured(exemplar, part);
+    CHECK(q.coherence < cut.coherence / 5);
+    CHECK(q.completeness < 0.02);
+    CHECK(q.broken < cut.broken / 2);
+  }
+  CHECK(measured(exemplar, exemplar).completeness == 0);
+  CHECK(measured(exemplar, exemplar, true).completeness > 0.01);
+  CHECK(measured(exemplar, exemplar, true).coherence < 0.06);
 }
 
 TEST_CASE("what is missing is missing at any pixel") {

@@ -57,8 +57,9 @@ Planes cropped(const Planes& image, const Rect& part) {
   return out;
 }
 
-double measured(const Planes& exemplar, const Planes& output, bool wraps = false) {
-  return foreign_structure(exemplar, output, 2, wraps, task);
+double measured(Planes exemplar, const Planes& output, bool wraps = false) {
+  exemplar.wraps = wraps;
+  return foreign_structure(exemplar, output, 2, task);
 }
 
 }  // namespace
@@ -141,6 +142,5 @@ TEST_CASE("the correlation length grows with the scale of a texture") {
 
 TEST_CASE("comparing structure stops when it is cancelled") {
   const std::atomic<bool> cancelled{true};
-  CHECK_THROWS_AS(foreign_structure(wall({64, 64}, 1), wall({64, 64}, 2), 1, false, Task(&cancelled, nullptr)),
-                  Cancelled);
+  CHECK_THROWS_AS(foreign_structure(wall({64, 64}, 1), wall({64, 64}, 2), 1, Task(&cancelled, nullptr)), Cancelled);
 }
