@@ -100,7 +100,7 @@ std::vector<Planes> gaussian_pyramid(Planes finest, int levels, const Task& task
   out.push_back(std::move(finest));
   while (int(out.size()) < levels) {
     const Planes& fine = out.back();
-    const Planes smooth = blurred(fine, 0.9, fine.wraps ? Beyond::as_it_wraps : Beyond::mirrored, task);
+    const Planes smooth = blurred(fine, 0.9, around_or_mirrored(fine), task);
     const bool wraps = fine.wraps && fine.size.width % 2 == 0 && fine.size.height % 2 == 0;
     Planes half = Planes::zeros({(fine.size.width + 1) / 2, (fine.size.height + 1) / 2}, fine.channels, wraps);
     for (int y = 0; y < half.size.height; y++)

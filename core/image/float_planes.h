@@ -32,6 +32,10 @@ Planes to_planes(const Image& image, const Rect& region, int channels);
 
 /// How a filter extends an image beyond its border: as Planes::wraps says, or mirrored (edge pixels repeat).
 enum class Beyond : uint8_t { as_it_wraps, mirrored };
+/// Around the border of an image that wraps, else mirrored.
+inline Beyond around_or_mirrored(const Planes& image) {
+  return image.wraps ? Beyond::as_it_wraps : Beyond::mirrored;
+}
 
 /// A Gaussian blur, truncated at four sigma (in pixels); sigma 0 returns the image itself. Takes time proportional to
 /// the area times sigma. Throws Cancelled.

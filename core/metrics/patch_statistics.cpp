@@ -267,8 +267,8 @@ class WindowSearch {
 
 }  // namespace
 
-double sliced_wasserstein(const Planes& tile, const Planes& output, const Task& task) {
-  const Planes exemplar = with_windows_across(tile);
+double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
+  if (exemplar.wraps) return sliced_wasserstein(with_windows_across(exemplar), output, task);
   const int directions = 8 * patch_statistics_tuning->eights_of_directions,
             quantiles = patch_statistics_tuning->quantiles;
   const auto sliced_patches = size_t(patch_statistics_tuning->sliced_patches);
@@ -291,7 +291,9 @@ double sliced_wasserstein(const Planes& tile, const Planes& output, const Task& 
 }
 
 PatchSimilarity patch_similarity(const Planes& tile, const Planes& output, int step, const Task& task) {
-  const Planes exemplar = with_windows_across(tile, step);
+  Planes across;
+  if (tile.wraps) across = with_windows_across(tile, step);
+  const Planes& exemplar = tile.wraps ? across : tile;
   const auto pool = size_t(patch_statistics_tuning->pool);
   const int dimensions = 8 * patch_statistics_tuning->eights_of_dimensions;
   PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed, step);

@@ -52,7 +52,6 @@ Size patch_positions(Size image, int step) {
 }
 
 Planes with_windows_across(const Planes& image, int step) {
-  if (!image.wraps) return image;
   const int by = (patch_side - 1) * step;
   Planes out = Planes::zeros({image.size.width + by, image.size.height + by}, image.channels);
   for (int y = 0; y < out.size.height; y++)

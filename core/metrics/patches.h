@@ -21,7 +21,7 @@ PatchList all_patches(Size image, int step = 1);
 /// At most `count` different patches in random order; a pure function.
 PatchList random_patches(Size image, size_t count, uint64_t seed, int step = 1);
 
-/// Continued to the right and below, so that a patch starts at every pixel, if it wraps; else the image as it is.
+/// An image that wraps, continued to the right and below so that a patch starts at every pixel; does not wrap itself.
 Planes with_windows_across(const Planes& image, int step = 1);
 
 /// An affine map of a patch to `outputs` numbers (a multiple of 8).

@@ -107,7 +107,7 @@ void add_patch_similarity(Planes exemplar, Planes output, int levels, QualityFig
     const int step = 1 << i;
     if (i > 0)
       for (Planes* image : {&exemplar, &output})
-        *image = blurred(*image, pyramid_sigma * step / 2, image->wraps ? Beyond::as_it_wraps : Beyond::mirrored, task);
+        *image = blurred(*image, pyramid_sigma * step / 2, around_or_mirrored(*image), task);
     const PatchSimilarity s = patch_similarity(exemplar, output, step, task);
     q.coherence += s.coherence / levels;
     q.completeness += s.completeness / levels;

@@ -52,7 +52,7 @@ const Tunable<StructureTuning> structure_tuning(
 
 /// The structure tensor's three entries.
 Planes structure_tensor(const Planes& image, int step, const Task& task) {
-  const Beyond beyond = image.wraps ? Beyond::as_it_wraps : Beyond::mirrored;
+  const Beyond beyond = around_or_mirrored(image);
   const Planes smooth = blurred(image, structure_tuning->edge_scale * std::max(2, step), beyond, task);
   Planes out = Planes::zeros(image.size, 3, image.wraps);
   tbb::parallel_for(0, image.size.height, [&](int y) {
