@@ -7,7 +7,7 @@ namespace terrazzo {
 NodeType index_node() {
   NodeType t;
   t.name = "index";
-  t.version = 6;
+  t.version = 7;
   t.category = "analysis";
   t.summary = "Finds similar pixels for each exemplar pixel";
   t.help =

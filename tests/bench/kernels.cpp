@@ -136,7 +136,7 @@ BENCHMARK(usage_count)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 void piece_labels(benchmark::State& state) {
   const CorrectionCase c(2);
-  for (auto _ : state) benchmark::DoNotOptimize(Pieces(c.field).count());
+  for (auto _ : state) benchmark::DoNotOptimize(Pieces(c.field, c.correction_level()).count());
   count_items(state, c.field.size.area());
 }
 BENCHMARK(piece_labels)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);

@@ -113,7 +113,6 @@ class LevelSearch {
   std::array<int, 2> settled(int x, int y, int u, int v) const {
     const Vector2d shown = phase_.shown_at(x, y);
     phase_.snap(shown.x(), shown.y(), u, v);
-    level_.unwind(u, v);
     level_.settle(u, v);
     return {u, v};
   }

@@ -19,7 +19,8 @@ const Tunable<PaddedLevelTuning> padded_level_tuning(
                     });
 
 /// The coordinate that one beyond the border shows.
-int mirrored(int i, int length) {
+int shown_at(int i, int length, bool wraps) {
+  if (wraps) return wrap(i, length);
   const int last = length - 1;
   return std::clamp(i < 0 ? -i : i > last ? 2 * last - i : i, 0, last);
 }
@@ -37,7 +38,8 @@ PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
   vectors_.reserve(size_t(stride_) * (size_.height + 2 * margin));
   for (int y = -margin; y < size_.height + margin; y++)
     for (int x = -margin; x < size_.width + margin; x++) {
-      vectors_.push_back(level.vectors[size_t(mirrored(y, size_.height)) * size_.width + mirrored(x, size_.width)]);
+      const int u = shown_at(x, size_.width, wraps), v = shown_at(y, size_.height, wraps);
+      vectors_.push_back(level.vectors[size_t(v) * size_.width + size_t(u)]);
     }
   if (!masked_) return;
   nearest_usable_ = nearest_set(level.usable, size_, wraps);

@@ -7,9 +7,9 @@
 
 namespace terrazzo {
 
-/// One appearance level with a margin around it, so that windows need no bounds checks. The margin mirrors the level
-/// about its outermost pixels even if the exemplar tiles: mirrored pixels seldom match, so that pieces end at the
-/// border instead of being smeared beyond it. Immutable; thread-safe.
+/// One appearance level with a margin around it, so that windows need no bounds checks. Around an exemplar that tiles
+/// lies its other side, around others what they show mirrored about their outermost pixels: that seldom matches, so
+/// that pieces end at the border instead of being smeared beyond it. Immutable; thread-safe.
 class PaddedLevel {
  public:
   static constexpr int margin = 4;
@@ -24,9 +24,10 @@ class PaddedLevel {
   }
   /// Whether only some pixels are usable.
   bool masked() const { return masked_; }
-  /// Clamps a position to where a window fits, `keep_off()` pixels inside the border. Clamps rather than wraps even if
-  /// the exemplar tiles: no exemplar shows its two sides together, and fewer such places make better results.
+  /// Brings a position to where a window fits: around the border of an exemplar that tiles, at least `keep_off()`
+  /// pixels inside that of others.
   [[gnu::always_inline]] void settle_inside(int& x, int& y) const {
+    if (wraps_) return unwind(x, y);
     x = within(x, keep_off_, size_.width - 1 - keep_off_);
     y = within(y, keep_off_, size_.height - 1 - keep_off_);
   }

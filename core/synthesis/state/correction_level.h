@@ -44,8 +44,9 @@ struct CorrectionLevel {
   }
   /// The same of an exemplar that tiles around its border: the position is moved into it.
   bool goes_on(int& u, int& v) const {
-    exemplar.unwind(u, v);
-    return exemplar.wraps() ? exemplar.is_usable(u, v) : holds(u, v);
+    if (!exemplar.wraps()) return holds(u, v);
+    exemplar.settle_inside(u, v);
+    return exemplar.is_usable(u, v);
   }
   /// Whether a pixel that shows `now` may come to show something usable instead: it is not fixed, does not get its past
   /// back, and suits the controls no less. `pixel`: of a field that holds the whole plane.

@@ -61,8 +61,7 @@ void ExpansionProblem::find_edges() {
 
 bool ExpansionProblem::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
   int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
-  if (along_edges) level.exemplar.unwind(u, v);  // seams go on around the border, patches end there
-  if (level.block == 1) level.exemplar.settle_inside(u, v);
+  if (level.block == 1 || level.exemplar.wraps()) level.exemplar.settle_inside(u, v);
   return u == b.x && v == b.y;
 }
 

@@ -39,7 +39,7 @@ PieceLimits PieceLimits::of(bool regular) {
 
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       const PieceLimits& limits) {
-  const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
+  const Pieces pieces(field, level);
   const double large = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (int piece = 0; piece < pieces.count(); piece++) {

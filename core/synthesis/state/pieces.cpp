@@ -4,14 +4,18 @@
 #include <numeric>
 
 #include "core/base/disjoint_sets.h"
+#include "core/synthesis/state/correction_level.h"
 
 namespace terrazzo {
 
-Pieces::Pieces(const Field& field, int block, bool wraps_x, bool wraps_y) {
+Pieces::Pieces(const Field& field, const CorrectionLevel& level) {
   const Size size = field.size;
+  const int block = level.block;
   const auto continues = [&](int from, int to, int dx, int dy) {
     const ExemplarPixel p = field.pixels[size_t(from)], q = field.pixels[size_t(to)];
-    return p.x + dx == q.x && p.y + dy == q.y;
+    int u = p.x + dx, v = p.y + dy;
+    level.exemplar.unwind(u, v);
+    return u == q.x && v == q.y;
   };
   std::vector<Run> runs;
   std::vector<size_t> rows{0};  // where each row's runs begin
@@ -39,9 +43,9 @@ Pieces::Pieces(const Field& field, int block, bool wraps_x, bool wraps_y) {
   };
   for (int y = 0; y < size.height; y++) {
     const size_t first = rows[size_t(y)], last = rows[size_t(y) + 1] - 1;
-    if (wraps_x && continues(runs[last].first + runs[last].length - 1, runs[first].first, block, 0))
+    if (level.window.closed_x && continues(runs[last].first + runs[last].length - 1, runs[first].first, block, 0))
       joined.join(uint32_t(first), uint32_t(last));
-    if (y > 0 || wraps_y) join_rows(y > 0 ? y - 1 : size.height - 1, y);
+    if (y > 0 || level.window.closed_y) join_rows(y > 0 ? y - 1 : size.height - 1, y);
   }
   std::vector<int> piece(runs.size());
   std::vector<int> counts;

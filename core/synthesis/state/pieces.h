@@ -6,12 +6,14 @@
 
 namespace terrazzo {
 
-/// The pieces of a field: connected pixels that continue one another in the exemplar, not across its border. Numbered
-/// in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side. Pieces continue
-/// across the borders of a field that wraps, or a seam would appear there.
+struct CorrectionLevel;
+
+/// The pieces of a field: connected pixels that continue one another in the exemplar, around its border if it tiles.
+/// Numbered in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side. Pieces
+/// continue across the borders of a field that wraps, or a seam would appear there.
 class Pieces {
  public:
-  explicit Pieces(const Field& field, int block = 1, bool wraps_x = false, bool wraps_y = false);
+  Pieces(const Field& field, const CorrectionLevel& level);
 
   int count() const { return int(areas_.size()); }
   int area(int piece) const { return areas_[size_t(piece)]; }

@@ -40,6 +40,8 @@ class CandidateSet {
     const Size size = level.exemplar.size();
     least_ = packed(keep_off, keep_off);
     most_ = packed(size.width - 1 - keep_off, size.height - 1 - keep_off);
+    below_ = level.exemplar.wraps() ? most_ : least_;
+    beyond_ = level.exemplar.wraps() ? least_ : most_;
   }
 
   /// Steps to a pixel itself and its eight neighbours.
@@ -79,11 +81,14 @@ class CandidateSet {
       const hn::Full128<uint16_t> d;
       const hn::Full128<uint32_t> both;
       const auto of = [&](uint32_t id) HWY_ATTR { return hn::BitCast(d, hn::Set(both, id)); };
-      const auto forth = of(forth_[n]), back = of(back_[n]), least = of(least_), most = of(most_);
+      const auto forth = of(forth_[n]), back = of(back_[n]), one = hn::Set(d, 1);
+      const auto least = hn::Add(of(least_), one), most = hn::Add(of(most_), one);
+      const auto below = of(below_), beyond = of(beyond_);
       for (size_t k = 0; k < per_pixel; k += 4) {
         const auto similar = hn::LoadU(d, &level_.similar[first + k].x);
-        const auto moved = hn::SaturatedSub(hn::SaturatedAdd(similar, forth), back);
-        const auto settled = hn::Min(hn::Max(moved, least), most);
+        const auto next = hn::Sub(hn::Add(hn::Add(similar, one), forth), back);  // and one more: none is negative
+        const auto inside = hn::IfThenElse(hn::Ne(hn::Max(next, least), next), below, hn::Sub(next, one));
+        const auto settled = hn::IfThenElse(hn::Ne(hn::Min(next, most), next), beyond, inside);
         hn::StoreU(hn::BitCast(both, settled), both, &proposed_[proposed_count_ + k]);
       }
       proposed_count_ += per_pixel;
@@ -128,7 +133,7 @@ class CandidateSet {
   const CorrectionLevel& level_;
   size_t width_;
   bool coherence_may_cost_;
-  uint32_t least_, most_;                     // PaddedLevel::settle_inside
+  uint32_t least_, most_, below_, beyond_;    // PaddedLevel::settle_inside, and what it makes of what lies outside
   std::array<uint32_t, 9> forth_{}, back_{};  // per neighbour: what leads from it to the pixel, in x and y
   ForEach<uint32_t> ids_, factors_, proposed_;
   size_t count_ = 0, continued_ = 0, proposed_count_ = 0;

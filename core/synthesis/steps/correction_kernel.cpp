@@ -145,7 +145,6 @@ class PixelCorrector {
     for (int k = 0; k < pass_.random_candidates; k++) {
       auto [u, v] = level_.exemplar.place(more_random_bits(bits, k));
       level_.phase.snap(x_, y_, u, v);
-      level_.exemplar.unwind(u, v);
       candidates_.propose(u, v);
     }
     candidates_.add_proposed();

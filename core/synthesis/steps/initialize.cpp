@@ -38,12 +38,13 @@ const Tunable<InitializeTuning> initialize_tuning(
          "What each rule decides", 0, 100},
     });
 
-/// The exemplar position of a random block's first pixel.
+/// The exemplar position of a random block's first pixel. Blocks end at the border, unless the exemplar tiles.
 std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t bits) {
   if (exemplar.masked()) {
     const auto [u, v] = exemplar.place(bits);
     return {u - side / 2, v - side / 2};
   }
+  if (exemplar.wraps()) return exemplar.place(bits);
   const int keep_off = exemplar.keep_off();
   const auto start = [&](uint32_t half, int n) {
     return keep_off + int(below(half, uint32_t(std::max(1, n - side - 2 * keep_off))));
@@ -141,7 +142,11 @@ class BlockPlacing {
       for (int across = -near_blocks; across <= near_blocks; across++) {
         const int64_t other = blocks_.index(column + across, row + down);
         if (other < 0 || other >= int64_t(starts_.size())) continue;
-        const int du = starts_[size_t(other)][0] - start[0], dv = starts_[size_t(other)][1] - start[1];
+        int du = starts_[size_t(other)][0] - start[0], dv = starts_[size_t(other)][1] - start[1];
+        if (exemplar_.wraps()) {
+          du = nearest_to_zero(du, exemplar_.size().width);
+          dv = nearest_to_zero(dv, exemplar_.size().height);
+        }
         const int width = side_ - std::abs(du), height = side_ - std::abs(dv);
         if (width <= 0 || height <= 0) continue;
         const double dx = across * side_ - du, dy = down * side_ - dv;  // from a pixel to its repeat
@@ -159,11 +164,10 @@ class BlockPlacing {
   std::vector<Start> starts_;  // of the blocks that are placed
 };
 
-/// Displaces a position by up to `amplitude` pixels each way, around the borders of an exemplar that tiles.
-void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uint64_t bits) {
+/// Displaces a position by up to `amplitude` pixels each way.
+void displace(int& u, int& v, double amplitude, uint64_t bits) {
   u += int(std::floor(amplitude * (2 * unit_double(bits << 32) - 1) + 0.5));
   v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
-  exemplar.unwind(u, v);
 }
 
 /// Clamps the first pixel of a block to where all four lie in the exemplar and continue one another.
@@ -185,7 +189,7 @@ void scatter(Field& field, const CorrectionLevel& level, double amplitude, uint6
   for (int y = 0; y < field.size.height; y++)
     for (int x = 0; x < field.size.width; x++) {
       int u = field.at(x, y).x, v = field.at(x, y).y;
-      displace(u, v, level.exemplar, amplitude, random_bits(seed, Purpose::jitter, level.level, x, y));
+      displace(u, v, amplitude, random_bits(seed, Purpose::jitter, level.level, x, y));
       level.exemplar.settle(u, v);
       field.at(x, y) = {uint16_t(u), uint16_t(v)};
     }
@@ -198,12 +202,10 @@ Field block_starts(const Field& parent, const CorrectionLevel& level, double amp
       const ExemplarPixel p = parent.at(column, row);
       const int x = level.window.x(column), y = level.window.y(row);
       int u = 2 * p.x, v = 2 * p.y;
-      if (amplitude > 0)
-        displace(u, v, level.exemplar, amplitude, random_bits(seed, Purpose::jitter, level.level, x, y));
+      if (amplitude > 0) displace(u, v, amplitude, random_bits(seed, Purpose::jitter, level.level, x, y));
       // At the finest level pieces fit one another already; to snap each to the lattice would undo that, unless the
       // lattice is exact to the pixel.
       if (level.level > 0 || amplitude > 0 || level.phase.is_whole()) level.phase.snap(2 * x, 2 * y, u, v);
-      level.exemplar.unwind(u, v);
       settle_block(u, v, level.exemplar);
       starts.at(column, row) = {uint16_t(u), uint16_t(v)};
     }
@@ -221,7 +223,6 @@ Field expanded(std::span<const ExemplarPixel> starts, const PlaneWindow& from, c
       const int x = to.part.x + column;
       const ExemplarPixel p = line[from.column(x >> 1)];
       int u = p.x + (x & 1), v = p.y + (y & 1);
-      exemplar.unwind(u, v);
       exemplar.settle(u, v);
       field.at(column, row) = {uint16_t(u), uint16_t(v)};
     }

@@ -101,7 +101,7 @@ std::vector<int32_t> unary_costs(const Pieces& pieces, double fair, const FixedP
 }
 
 void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
-  const Pieces pieces(field, level.block, level.window.closed_x, level.window.closed_y);
+  const Pieces pieces(field, level);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });

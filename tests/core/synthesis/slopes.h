@@ -6,7 +6,7 @@
 namespace terrazzo::test {
 
 /// An exemplar that changes little from one pixel to the next and shows every window once only.
-inline PaddedLevel slopes(Size size, const std::vector<uint8_t>& usable = {}) {
+inline PaddedLevel slopes(Size size, const std::vector<uint8_t>& usable = {}, bool wraps = false) {
   AppearanceLevel level;
   level.size = size;
   level.usable = usable;
@@ -18,7 +18,7 @@ inline PaddedLevel slopes(Size size, const std::vector<uint8_t>& usable = {}) {
       v[1] = int16_t(20 * y - 640);
       level.vectors.push_back(v);
     }
-  return {level, false};
+  return {level, wraps};
 }
 
 }  // namespace terrazzo::test

@@ -7,6 +7,8 @@
 #include <hwy/targets.h>
 
 #include "core/synthesis/synthesize.h"
+#include "tests/core/synthesis/fields.h"
+#include "tests/core/synthesis/slopes.h"
 #include "tests/exemplars.h"
 
 using namespace terrazzo;
@@ -66,4 +68,25 @@ TEST_CASE("every instruction set gives the same uv map") {
     hwy::SetSupportedTargetsForTest(0);
     CHECK(targets > 0);
   }
+}
+
+TEST_CASE(
+    "what goes on around the border of an exemplar that tiles costs nothing, and a wrong pixel there is put right") {
+  constexpr int side = 40, from = side - 8;
+  const PaddedLevel exemplar = slopes({side, side}, {}, true);
+  Field field{{16, 16}, {}};
+  for (int y = 0; y < 16; y++)
+    for (int x = 0; x < 16; x++) field.pixels.push_back({uint16_t((from + x) % side), uint16_t((from + y) % side)});
+  const Field whole = field;
+  const CorrectionLevel level = level_of(exemplar, field.size);
+  UsagePenalty usage(exemplar.size(), 0, 1, {});
+  const auto corrected = [&](Field f) {
+    const CorrectionPass pass{.window = &full_window(), .wanted = {0, 0, 16, 16}};
+    correct(f, level, pass, usage, Task());
+    return f;
+  };
+  CHECK(corrected(field).pixels == whole.pixels);
+  field.at(7, 8) = {20, 5};
+  field.at(8, 3) = {4, 30};
+  CHECK(corrected(field).pixels == whole.pixels);
 }

@@ -160,7 +160,7 @@ TEST_CASE("seams leave the middles of tiles for their joints") {
   move_seams(field, in_blocks(exemplar), {.reach = 8}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
   // Both pieces are still there, and each goes on as in the exemplar.
-  CHECK(Pieces(field, 2).count() == 2);
+  CHECK(Pieces(field, in_blocks(exemplar)).count() == 2);
 }
 
 TEST_CASE("to be far from its piece costs a pixel: seams go to a joint all the same, but stay if that costs too much") {
