@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "core/analysis/repeats/wrap_detection.h"
 #include "core/base/error.h"
 #include "core/image_io/image_file.h"
 #include "core/material/material.h"
@@ -147,7 +148,9 @@ std::vector<Case> find_cases(const Program& program, const fs::path& exemplars, 
 }
 
 Row scored(const ImagePtr& exemplar, const ImagePtr& output) {
-  ComparedPlanes planes = compared_planes(*Material::of(exemplar), *Material::of(output), {});
+  const MaterialPtr material = Material::of(exemplar);
+  ComparedPlanes planes = compared_planes(*material, *Material::of(output), {});
+  planes.exemplar.wraps = seems_to_tile(*material, Task());
   const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
   Row row;
   for (const Column& column : columns()) row[column.name] = q.*column.figure;
