@@ -30,6 +30,8 @@ class Features {
                           ImagePtr mask = nullptr, ElementsPtr elements = nullptr);
   /// The same features of an exemplar that is known to repeat.
   FeaturesPtr with(const Repeats& repeats) const { return make(size_, images_, wraps_, repeats, mask_, elements_); }
+  /// The same features of an exemplar of which only a part may be sampled.
+  FeaturesPtr with(ImagePtr mask) const { return make(size_, images_, wraps_, repeats_, std::move(mask), elements_); }
   /// The same features of an exemplar whose elements are known.
   FeaturesPtr with(ElementsPtr elements) const {
     return make(size_, images_, wraps_, repeats_, mask_, std::move(elements));

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/base/bounds.h"
 #include "core/base/tuning.h"
 #include "core/image/line_changes.h"
 
@@ -33,6 +34,13 @@ Planes picture(Size size, bool wraps, const std::function<const AppearanceVector
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) std::ranges::copy(at(x, y), out.at(x, y));
   return out;
+}
+
+/// The part of a level that may be shown; empty if it is no rectangle.
+Rect shown_part(const AppearanceLevel& level) {
+  if (level.usable.empty()) return whole(level.size);
+  const Rect box = bounds(level.size, [&](size_t i) { return level.usable[i] != 0; });
+  return std::ranges::count(level.usable, 1) == box.area() ? box : Rect{};
 }
 
 /// Of the part of a result that is looked at, at the size of that level.
@@ -65,12 +73,14 @@ LongLines long_lines(const UvMap& uv, const Appearance& appearance, const Task& 
       appearance.levels(), [](const AppearanceLevel& l) { return std::min(l.size.width, l.size.height) <= most_side; });
   const AppearanceLevel& level = small == appearance.levels().end() ? appearance.levels().back() : *small;
   LongLines out;
-  const int side = std::min(level.size.width, level.size.height);
+  const Rect part = shown_part(level);
+  const int side = std::min(part.width, part.height);
   const Size seen = seen_size(uv, level.size);
-  if (!level.usable.empty() || std::min(seen.width, seen.height) < side) return out;
-  const Planes exemplar = picture(level.size, appearance.wraps(), [&](int x, int y) -> const AppearanceVector& {
-    return level.vectors[size_t(y) * size_t(level.size.width) + size_t(x)];
-  });
+  if (part.empty() || std::min(seen.width, seen.height) < side) return out;
+  const Planes exemplar =
+      picture({part.width, part.height}, appearance.wraps(), [&](int x, int y) -> const AppearanceVector& {
+        return level.vectors[size_t(part.y + y) * size_t(level.size.width) + size_t(part.x + x)];
+      });
   std::optional<Planes> result;  // only where lines could be missed
   std::array<LineChanges, 2> own;
   for (const bool rows : {true, false}) own[rows] = line_changes(exemplar, rows, side, task);

@@ -18,8 +18,8 @@ struct LongLines {
 };
 
 /// Those along the axis of which most are broken, or else of which the exemplar has most. Looks at no more than twice
-/// the exemplar's side of the result, from its top left corner. None where a mask hides parts of
-/// the exemplar. Throws Cancelled.
+/// the exemplar's side of the result, from its top left corner. Where a mask leaves no rectangle of
+/// the exemplar, there are none. Throws Cancelled.
 LongLines long_lines(const UvMap& uv, const Appearance& appearance, const Task& task);
 
 }  // namespace terrazzo

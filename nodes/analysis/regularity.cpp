@@ -7,6 +7,7 @@
 
 #include "core/analysis/repeats/part_lattices.h"
 #include "core/analysis/repeats/streaks.h"
+#include "core/analysis/repeats/uneven_borders.h"
 #include "core/node/node.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis/analysis_memory.h"
@@ -79,6 +80,28 @@ void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) 
                         std::max(repeats.streaks.x, repeats.streaks.y)));
 }
 
+/// The exemplar without borders that are unlike the rest.
+FeaturesPtr without_uneven_borders(NodeContext& node, const FeaturesPtr& features) {
+  const Size size = features->size();
+  const Rect even = even_part(*features, node.task());
+  if (even == whole(size)) return features;
+  std::vector<std::string> sides;
+  for (const auto& [pixels, side] : {std::pair{even.x, "left"},
+                                     {size.width - even.right(), "right"},
+                                     {even.y, "top"},
+                                     {size.height - even.bottom(), "bottom"}})
+    if (pixels > 0) sides.push_back(fmt::format("{} pixels at the {}", pixels, side));
+  node.note(
+      fmt::format("{}: unlike all the rest of an exemplar that does not tile, and left out, as they would show in "
+                  "patches anywhere; \"borders\" set to keep uses them",
+                  fmt::join(sides, ", ")));
+  std::vector<float> mask;
+  mask.reserve(size_t(size.area()));
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) mask.push_back(contains(even, x, y) ? 1.0f : 0.0f);
+  return features->with(Image::from_floats({.size = size, .channels = 1, .semantic = Semantic::mask}, std::move(mask)));
+}
+
 void compute_regularity(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
@@ -120,7 +143,11 @@ void compute_regularity(NodeContext& node) {
         "the exemplar is a single cell of its lattice: a result repeats it as it is, with few variations{}. An "
         "exemplar that shows several tiles or panels side by side helps",
         features->wraps() ? "" : ", and shows where its borders meet, as it does not tile"));
-  node.output("features", features->with(repeats));
+  const FeaturesPtr known = features->with(repeats);
+  // Where joints cross and nothing repeats, a border may be a frame. A mask would part streaks.
+  const bool may_be_framed = repeats.lattice.rank == 0 && too_few;
+  const bool looks = node.text("borders") == "auto" && !labels && !may_be_framed && !repeats.streaks.any();
+  node.output("features", looks ? without_uneven_borders(node, known) : known);
 }
 
 std::vector<std::string> check_regularity(const Params& params) {
@@ -144,7 +171,7 @@ std::vector<std::string> check_regularity(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 24;
+  t.version = 25;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =
@@ -180,6 +207,13 @@ NodeType regularity_node() {
                "are no cells. Synthesis then sees more of each streak, and lets streaks end one by one rather than "
                "along seams across them. off sees them as anything else.",
        .choices = {"auto", "off"}},
+      {.name = "borders",
+       .type = ParamType::choice,
+       .fallback = "keep",
+       .help = "auto leaves out borders that are unlike all the rest of an exemplar that neither tiles nor has cells, "
+               "such as a vignette or the dirty foot of a wall: a result would show them in patches anywhere. keep "
+               "uses them, as results must that go on beside the exemplar's own pixels, or show its tones on demand.",
+       .choices = {"keep", "auto"}},
       {.name = "alike",
        .type = ParamType::boolean,
        .fallback = false,

@@ -1,6 +1,9 @@
 #include "core/metrics/long_lines.h"
 
+#include <cstdint>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -13,8 +16,9 @@ namespace {
 constexpr int side = 128;
 
 /// Joints all along the exemplar, two of them level and one upright, on grain; or grain alone.
-AppearancePtr exemplar(bool has_joints) {
+AppearancePtr exemplar(bool has_joints, std::vector<uint8_t> usable = {}) {
   AppearanceLevel level;
+  level.usable = std::move(usable);
   level.size = {side, side};
   for (int y = 0; y < side; y++)
     for (int x = 0; x < side; x++) {
@@ -23,7 +27,7 @@ AppearancePtr exemplar(bool has_joints) {
       if (has_joints && (y % 64 < 4 || (x + 20) % 128 < 4)) v[0] = -800;
       level.vectors.push_back(v);
     }
-  return Appearance::make({level}, 1, true);
+  return Appearance::make({level}, 1, level.usable.empty());
 }
 
 UvMapPtr laid(Size size, const std::function<int(int, int)>& moved) {
@@ -57,4 +61,13 @@ TEST_CASE("joints that end at the border of every block are broken, and grain ha
 
 TEST_CASE("of a result smaller than its exemplar nothing is told") {
   CHECK(long_lines(*laid({100, 300}, in_blocks), *exemplar(true), {}).share == 0);
+}
+
+TEST_CASE("lines are told of where a mask leaves a rectangle of the exemplar, but of no other shape") {
+  std::vector<uint8_t> usable(size_t(side) * side, 1);
+  for (int y = 0; y < side; y++)
+    for (int x = 0; x < 16; x++) usable[size_t(y) * side + size_t(x)] = 0;
+  CHECK(long_lines(*laid({300, 260}, in_blocks), *exemplar(true, usable), {}).are_broken());
+  usable[64 * side + 64] = 0;
+  CHECK(long_lines(*laid({300, 260}, in_blocks), *exemplar(true, usable), {}).share == 0);
 }

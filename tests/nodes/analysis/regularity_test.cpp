@@ -304,3 +304,19 @@ TEST_CASE("an exemplar without lines has no cell, though it tiles") {
       true));
   CHECK(l.rank == 0);
 }
+
+TEST_CASE("a dark border of an exemplar that does not tile is left out if asked for, and said") {
+  const FeaturesPtr features = features_of({128, 128}, [](int, int y) { return y < 96 ? 0.05f : 0.f; });
+  for (const bool asked : {true, false}) {
+    CAPTURE(asked);
+    const Params params = asked ? Params{{"borders", "auto"}} : Params{};
+    const NodeRun run = run_node("regularity", params, {{"features", {features}}});
+    const ImagePtr mask = run.get<Features>("features")->mask();
+    REQUIRE((mask != nullptr) == asked);
+    CHECK(run.says("32 pixels at the bottom") == asked);
+    if (asked) {
+      CHECK(mask->pixels()[size_t(95) * 128] == 1);
+      CHECK(mask->pixels()[size_t(96) * 128] == 0);
+    }
+  }
+}
