@@ -80,11 +80,8 @@ void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) 
                         std::max(repeats.streaks.x, repeats.streaks.y)));
 }
 
-/// The exemplar without borders that are unlike the rest.
-FeaturesPtr without_uneven_borders(NodeContext& node, const FeaturesPtr& features) {
-  const Size size = features->size();
-  const Rect even = even_part(*features, node.task());
-  if (even == whole(size)) return features;
+FeaturesPtr without_uneven_borders(NodeContext& node, const Features& features, const Rect& even) {
+  const Size size = features.size();
   std::vector<std::string> sides;
   for (const auto& [pixels, side] : {std::pair{even.x, "left"},
                                      {size.width - even.right(), "right"},
@@ -99,7 +96,18 @@ FeaturesPtr without_uneven_borders(NodeContext& node, const FeaturesPtr& feature
   mask.reserve(size_t(size.area()));
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) mask.push_back(contains(even, x, y) ? 1.0f : 0.0f);
-  return features->with(Image::from_floats({.size = size, .channels = 1, .semantic = Semantic::mask}, std::move(mask)));
+  return features.with(Image::from_floats({.size = size, .channels = 1, .semantic = Semantic::mask}, std::move(mask)));
+}
+
+/// The exemplar without borders that are unlike the rest; warns of one that changes from side to side.
+FeaturesPtr without_uneven_borders(NodeContext& node, const FeaturesPtr& features) {
+  const Evenness found = evenness(*features, node.task());
+  if (found.changes_down || found.changes_across)
+    node.warn(fmt::format(
+        "the exemplar changes from {} as a whole: a result shows what it has at either side in patches anywhere. Crop "
+        "it to what is alike all over (crop), take light out (delight), or say where to show what (progression)",
+        found.changes_down ? "top to bottom" : "left to right"));
+  return found.part == whole(features->size()) ? features : without_uneven_borders(node, *features, found.part);
 }
 
 void compute_regularity(NodeContext& node) {

@@ -26,7 +26,7 @@ FeaturesPtr shaded_grain(int column, double darker, bool wraps = false) {
 
 TEST_CASE("a border that is unlike all the rest of an exemplar that does not tile is told of") {
   const Rect all = whole({160, 128});
-  const auto even = [](const FeaturesPtr& features) { return even_part(*features, Task()); };
+  const auto even = [](const FeaturesPtr& features) { return evenness(*features, Task()).part; };
   CHECK(even(shaded_grain(30, 2)) == Rect{30, 0, 130, 128});
   CHECK(even(shaded_grain(0, 0)) == all);
   // A joint along the border, and what is no border but half of the exemplar.
@@ -43,8 +43,29 @@ TEST_CASE("where bands end a border may be left out, but not along them, as one 
     }));
   };
   const auto even = [&](double foot, double side) {
-    return even_part(*courses(foot, side)->with(Lattice{1, {0, 20}, {}, 1}), Task());
+    return evenness(*courses(foot, side)->with(Lattice{1, {0, 20}, {}, 1}), Task()).part;
   };
   CHECK(even(0, 0.5) == Rect{0, 0, 130, 160});
   CHECK(even(0.5, 0) == whole({160, 160}));
+}
+
+TEST_CASE("an exemplar that changes from one side to the other is told of, unless courses keep it in its place") {
+  const auto slope = [](double by, bool spots) {
+    return plain_features(make_image({160, 160}, 1, [=](int x, int y, int) {
+      const double stain = spots ? std::hypot(x - 60.0, y - 90.0) < 40 : y / 160.0;
+      return float(unit_double(random_bits(5, x, y)) + by * stain);
+    }));
+  };
+  const auto changes = [](const FeaturesPtr& features) {
+    const Evenness found = evenness(*features, Task());
+    CHECK_FALSE(found.changes_across);
+    return found.changes_down;
+  };
+  CHECK(changes(slope(0.6, false)));
+  CHECK_FALSE(changes(slope(0.1, false)));
+  CHECK_FALSE(changes(slope(0.6, true)));
+  CHECK_FALSE(changes(slope(0.6, false)->with(Lattice{1, {0, 160}, {}, 1})));
+  CHECK(changes(slope(0.6, false)->with(Lattice{1, {40, 0}, {}, 1})));
+  CHECK(changes(slope(0.6, false)->with(Lattice{2, {40, 0}, {0, 20}, 1})));
+  CHECK_FALSE(changes(slope(0.6, false)->with(Lattice{2, {40, 0}, {0, 160}, 1})));
 }
