@@ -92,8 +92,8 @@ for (const map of ['base_color', 'normal']) {
 
 // Further away. Bounds are about a fifth above what was measured; change: what half a pixel's motion changes, for shimmering.
 for (const [mean, most, search] of [
-  [0.95, 70, 'zoom=0.5'], [1.35, 40, 'zoom=0.35'], [1.8, 60, 'zoom=0.25'], [2, 80, 'zoom=0.25&map=normal'], [0.2, 2, 'zoom=0.1'],
-  [0.9, 40, 'zoom=0.7&tilt=65'], [1.05, 40, 'zoom=0.7&tilt=65&probes=8'],
+  [0.7, 70, 'zoom=0.5'], [1.2, 40, 'zoom=0.35'], [1.45, 76, 'zoom=0.25'], [1.55, 80, 'zoom=0.25&map=normal'],
+  [0.16, 2, 'zoom=0.1'], [0.76, 40, 'zoom=0.7&tilt=65'], [1, 40, 'zoom=0.7&tilt=65&probes=8'],
 ]) {
   const data = await look(search);
   below(data, {mean, most, changeRuntime: 1.1 * data.changeResolved});

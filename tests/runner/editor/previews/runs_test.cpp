@@ -114,36 +114,36 @@ ImagePtr base_colour_of_run(const std::string& text, const fs::path& folder) {
 TEST_CASE("what a tab looks at is computed, coarse levels first, and is what a run gives") {
   const TemporaryFolder folder;
   WatchedRuns watched(folder.path());
-  watched.change(wall_text(1, 512));
-  watched.look_at("result", "", 512);
+  watched.change(wall_text(1, 1024));
+  watched.look_at("result", "", 1024);
   watched.wait();
   const std::vector<Json> coarse = watched.pictures("result", true), whole = watched.pictures("result");
   REQUIRE(!coarse.empty());
   CHECK(coarse.back().at("semantic") == "base_color");
   CHECK(coarse.back().at("map") == "base_color");  // in the place of which the true one comes
   for (const Json& e : coarse) {
-    CHECK(e.at("width") == 512);
+    CHECK(e.at("width") == 1024);
     CHECK(watched.store.find(e.at("digest")) != nullptr);
   }
   REQUIRE(whole.size() >= 4);
   CHECK(whole[0].at("map") == "base_color");
-  CHECK(whole[0].at("width") == 512);
+  CHECK(whole[0].at("width") == 1024);
   CHECK(whole[0].at("url") == "/picture/" + whole[0].at("digest").get<std::string>());
   const ImagePtr shown = watched.store.image(whole[0].at("digest"));
   REQUIRE(shown);
-  CHECK(shown->digest() == base_colour_of_run(wall_text(1, 512), folder.path())->digest());
-  CHECK(shown->pixels() == base_colour_of_run(wall_text(1, 512), folder.path())->pixels());
+  CHECK(shown->digest() == base_colour_of_run(wall_text(1, 1024), folder.path())->digest());
+  CHECK(shown->pixels() == base_colour_of_run(wall_text(1, 1024), folder.path())->pixels());
   CHECK(watched.count("done", "layout") == 1);
   CHECK(watched.all("ran").back().at("ok") == true);
   CHECK(!fs::exists(folder.path() / "out"));
 
   // Nothing is computed again for another look, or for a change that has no influence.
   watched.forget_events();
-  watched.look_at("layout", "", 512);
+  watched.look_at("layout", "", 1024);
   watched.wait();
   CHECK(watched.pictures("layout").size() == 1);
   CHECK(watched.pictures("layout")[0].at("semantic") == "uv");
-  watched.change(wall_text(1, 512, "// a comment"));
+  watched.change(wall_text(1, 1024, "// a comment"));
   watched.wait();
   CHECK(watched.count("done", "layout") == 0);
   CHECK(watched.pictures("layout").size() >= 2);
