@@ -48,7 +48,7 @@ TEST_CASE("a part of a surface is that part of the whole, with coarse levels mad
 
 TEST_CASE("whole bricks are a choice, of no weight to drafts, and laid alike in parts") {
   const IndexPtr index = make_index(DrawnWall({240, 220}).appearance(), 3, Task());
-  const auto made = [&](Params params) { return uv_of(run_node("synthesize", params, {{"index", {index}}})); };
+  const auto made = [&](const Params& params) { return uv_of(run_node("synthesize", params, {{"index", {index}}})); };
   const Params laid = {{"size", Size{300, 260}}}, loose = {{"size", Size{300, 260}}, {"whole_bricks", false}};
   const UvMapPtr whole = made(laid);
   CHECK(whole->digest() != made(loose)->digest());
