@@ -80,7 +80,8 @@ void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) 
                         std::max(repeats.streaks.x, repeats.streaks.y)));
 }
 
-FeaturesPtr without_uneven_borders(NodeContext& node, const Features& features, const Rect& even) {
+/// The exemplar of which only a part may be sampled; says what is left out.
+FeaturesPtr without_borders(NodeContext& node, const Features& features, const Rect& even) {
   const Size size = features.size();
   std::vector<std::string> sides;
   for (const auto& [pixels, side] : {std::pair{even.x, "left"},
@@ -107,7 +108,7 @@ FeaturesPtr without_uneven_borders(NodeContext& node, const FeaturesPtr& feature
         "the exemplar changes from {} as a whole: a result shows what it has at either side in patches anywhere. Crop "
         "it to what is alike all over (crop), take light out (delight), or say where to show what (progression)",
         found.changes_down ? "top to bottom" : "left to right"));
-  return found.part == whole(features->size()) ? features : without_uneven_borders(node, *features, found.part);
+  return found.part == whole(features->size()) ? features : without_borders(node, *features, found.part);
 }
 
 void compute_regularity(NodeContext& node) {

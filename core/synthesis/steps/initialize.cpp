@@ -170,7 +170,7 @@ void displace(int& u, int& v, double amplitude, uint64_t bits) {
   v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
 }
 
-/// Clamps the first pixel of a block to where all four lie in the exemplar and continue one another.
+/// Brings the first pixel of a block to where all four lie in the exemplar and continue one another.
 void settle_block(int& u, int& v, const PaddedLevel& exemplar) {
   u++, v++;
   exemplar.settle_inside(u, v);
