@@ -61,8 +61,9 @@ WholeElements whole_elements_of(const Appearance& appearance, const Repeats& rep
                                 const SynthesisOptions& options) {
   if (!options.whole_bricks || !courses.empty() || !has_elements(appearance)) return WholeElements::none;
   const Lattice& lattice = repeats.lattice;
-  const bool free = lattice.rank == 0 || are_surer(*appearance.elements(), lattice, appearance.wraps());
-  return free ? WholeElements::laid : WholeElements::completed;
+  if (lattice.rank > 0 && !are_surer(*appearance.elements(), lattice, appearance.wraps()))
+    return WholeElements::completed;
+  return are_heaped(appearance) ? WholeElements::heaped : WholeElements::laid;
 }
 
 }  // namespace

@@ -100,9 +100,10 @@ bool penalizes_proximity(const LevelFacts& f) {
 }
 
 /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
-/// other exemplars moving seams brings nothing. Between elements that are laid as wholes there is nothing to move.
+/// other exemplars moving seams brings nothing. Between elements whose rims meet there is nothing to move.
 bool moves_seams(const LevelFacts& f) {
-  return f.level <= finest_whole_level && (f.regular || f.kept) && !is_draft(f) && !f.lays_elements();
+  if (f.lays_elements()) return f.heaps_elements();
+  return f.level <= finest_whole_level && (f.regular || f.kept) && !is_draft(f);
 }
 
 bool keeps_pixels(const LevelFacts& f) {
@@ -169,7 +170,8 @@ void lay_courses(StepContext& c) {
 }
 
 void lay_whole_elements(StepContext& c) {
-  lay_elements(c.field, c.level, *c.shared.index.appearance(), c.task);
+  const ElementRims rims = c.facts.heaps_elements() ? ElementRims::as_they_are : ElementRims::bent;
+  lay_elements(c.field, c.level, *c.shared.index.appearance(), rims, c.task);
 }
 
 void complete(StepContext& c) {
@@ -177,10 +179,12 @@ void complete(StepContext& c) {
 }
 
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
-/// brick away. Without a lattice, between kept pixels, the limit on pieces is that with one.
+/// brick away, as do those between stones of a heap, which are laid last. Without a lattice, between kept pixels, the
+/// limit on pieces is that with one; whole stones have none.
 SeamMoves seams_to_joints(const StepContext& c) {
   const StepTuning& t = *step_tuning;
   SeamMoves moves{.reach = t.seam_reach_to_joints, .distance_penalty = t.stay_to_joints};
+  if (c.facts.heaps_elements()) return moves;
   if (c.facts.level < finest_whole_level)
     moves = {.reach = t.seam_reach_to_the_pixel, .distance_penalty = t.stay_to_the_pixel};
   const double blocks = double(c.level.exemplar.size().area()) / (c.level.block * c.level.block);

@@ -30,7 +30,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 38;
+inline constexpr int synthesis_version = 39;
 
 /// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
 /// are: there bricks and elements are laid, and seams moved for the last time.
@@ -52,7 +52,8 @@ inline constexpr std::string_view phase_names[] = {"costs", "coarsest level", "u
 /// How the exemplar's elements become whole in the result, if that is asked for and it has enough of them.
 enum class WholeElements : uint8_t {
   none,       ///< they do not, or as parts of its courses
-  laid,       ///< they are laid side by side
+  laid,       ///< they are laid side by side, their rims bent to meet
+  heaped,     ///< they are laid as they are, and seams look for their outlines, which are not sure
   completed,  ///< they are completed where its lattice has them
 };
 
@@ -76,7 +77,8 @@ struct LevelFacts {
   bool counts_use() const;
   /// Whether elements become whole on this level. Those that are laid stay what they are.
   bool makes_elements_whole() const;
-  bool lays_elements() const { return makes_elements_whole() && elements == WholeElements::laid; }
+  bool lays_elements() const { return makes_elements_whole() && elements != WholeElements::completed; }
+  bool heaps_elements() const { return makes_elements_whole() && elements == WholeElements::heaped; }
 };
 
 /// How much work goes into a level.

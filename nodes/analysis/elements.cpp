@@ -38,12 +38,14 @@ Elements one_element(Size size) {
 
 void compute_elements(NodeContext& node) {
   const auto features = node.input<Features>("features");
-  const double least = node.number("least_certainty");
+  const double share = features->repeats().lattice.rank == 0 ? sure_without_lattice : 1;
+  const double least = share * node.number("least_certainty");
   ElementsPtr elements = find_elements(*features, node.task());
   if (elements && elements->certainty < least) {
-    node.note(
-        fmt::format("no elements: their joints do not stand out (certainty {:.2f}, below \"least_certainty\" {:.2f})",
-                    elements->certainty, least));
+    node.note(fmt::format(
+        "no elements: their joints do not stand out (certainty {:.2f}, below {:.3g}, which \"least_certainty\" "
+        "asks for)",
+        elements->certainty, least));
     elements = nullptr;
   } else if (!elements) {
     node.note("no elements found");
@@ -62,7 +64,7 @@ void compute_elements(NodeContext& node) {
 NodeType elements_node() {
   NodeType t;
   t.name = "elements";
-  t.version = 4;
+  t.version = 5;
   t.category = "analysis";
   t.summary = "Parts an exemplar into its elements: stones, bricks, slates, tiles";
   t.help =
@@ -78,7 +80,10 @@ NodeType elements_node() {
   t.params = {{.name = "least_certainty",
                .type = ParamType::number,
                .fallback = sure_elements,
-               .help = "Elements found with less certainty are not used. Higher accepts fewer; 0 takes what there is.",
+               .help =
+                   "Elements found with less certainty are not used. Higher accepts fewer; 0 takes what there is. Of "
+                   "exemplars without a lattice three quarters of it will do, since nothing else keeps their stones "
+                   "whole.",
                .min = 0,
                .max = 1}};
   t.persist = Persist::payload;

@@ -49,8 +49,11 @@ std::vector<SteppedCase> stepped_cases() {
   const Lattice lattice{2, {16, 0}, {8, 8}, 0.9};
   const DrawnWall courses({160, 150});
   const DrawnStones stones({160, 160}, 4);
-  const FeaturesPtr known =
-      plain_features(stones.image(), true)->with(std::make_shared<const Elements>(stones.elements()));
+  const auto known = [&](double certainty) {
+    Elements elements = stones.elements();
+    elements.certainty = certainty;
+    return plain_features(stones.image(), true)->with(std::make_shared<const Elements>(elements));
+  };
 
   SynthesisOptions kept{.size = size};
   const UvMapPtr before = synthesize(*plain, {.size = size, .seed = 2}, Task());
@@ -68,7 +71,8 @@ std::vector<SteppedCase> stepped_cases() {
       {"small", wall_index(), {.size = {60, 44}}},
       {"lattice", indexed(plain_features(wall(wall_size))->with(lattice)), {.size = size}},
       {"courses", indexed(courses.features()), {.size = {200, 180}}},
-      {"stones", indexed(known), {.size = {200, 180}}},
+      {"stones", indexed(known(1)), {.size = {200, 180}}},
+      {"heap", indexed(known(0.3)), {.size = {200, 180}}},
       {"tiles", DrawnTiles(10).index(true), {.size = {100, 90}}},
       {"grid", DrawnTiles(72).crooked().index(true), {.size = {200, 180}}},
       {"panels", make_index(DrawnPanels(false).appearance(), 3, Task()), {.size = {300, 250}}},

@@ -59,6 +59,12 @@ void ExpansionProblem::find_edges() {
   });
 }
 
+bool ExpansionProblem::is_next(ExemplarPixel a, ExemplarPixel b, int side) const {
+  int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
+  level.exemplar.unwind(u, v);
+  return u == b.x && v == b.y;
+}
+
 bool ExpansionProblem::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
   int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
   if (level.block == 1 || level.exemplar.wraps()) level.exemplar.settle_inside(u, v);
@@ -141,7 +147,10 @@ void Expansion::connect(int n) {
     } else if (side < 2) {  // both are free: each pair once
       const ExemplarPixel offered = free_[size_t(node)].offered;
       const int64_t neither = problem_.mismatch(kept, other, side), first = problem_.mismatch(f.offered, other, side),
-                    second = problem_.mismatch(kept, offered, side), both = problem_.mismatch(f.offered, offered, side);
+                    both = problem_.mismatch(f.offered, offered, side);
+      // Where both go on, either seam compares the same pixels.
+      const bool go_on = problem_.is_next(kept, other, side) && problem_.is_next(f.offered, offered, side);
+      const int64_t second = go_on ? first : problem_.mismatch(kept, offered, side);
       cut_.prefer_source(n, neither - first);
       cut_.prefer_source(node, first - both);
       cut_.join(n, side, node, 0);

@@ -20,6 +20,7 @@ struct ElementLayoutTuning {
   double least_shown_at_border = 0.15;
   double least_kept = 0.03;
   int fewest = 4;
+  double sure_outlines = 0.65;
 };
 const Tunable<ElementLayoutTuning> element_layout_tuning(
     "element_layout",
@@ -35,6 +36,9 @@ const Tunable<ElementLayoutTuning> element_layout_tuning(
         {&ElementLayoutTuning::fewest, "fewest", "elements",
          "that an exemplar must have whole. Higher: few large stones are torn; lower: they come back and back",
          "What each rule decides", 1},
+        {&ElementLayoutTuning::sure_outlines, "sure_outlines", "certainty",
+         "from which on rims are bent to meet in joints. Higher: walls lose joints; lower: pebbles get ragged rims",
+         "heaped_elements", 0, 1},
     });
 
 class ElementLayout {
@@ -46,7 +50,7 @@ class ElementLayout {
         shapes_(places_.shapes()),
         packing_(shapes_, level.window.field()) {}
 
-  void lay(const Task& task) {
+  void lay(ElementRims rims, const Task& task) {
     Places places = places_.shown();
     std::vector<PlacedElement> placed;
     for (auto& of_element : places)
@@ -57,7 +61,8 @@ class ElementLayout {
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
     packing_.pack(std::move(placed), task);
     warps_.resize(packing_.placed().size());
-    tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
+    if (rims == ElementRims::bent)
+      tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
     tbb::parallel_for(0, field_.size.height, [&](int row) {
       for (int column = 0; column < field_.size.width; column++) show(column, row);
     });
@@ -127,9 +132,15 @@ bool has_elements(const Appearance& appearance) {
   return e && whole_elements(*e, appearance.wraps()) >= element_layout_tuning->fewest;
 }
 
-void lay_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance, const Task& task) {
+bool are_heaped(const Appearance& appearance) {
+  const ElementsPtr& e = appearance.elements();
+  return e && appearance.lattice().rank == 0 && e->certainty < element_layout_tuning->sure_outlines;
+}
+
+void lay_elements(Field& field, const CorrectionLevel& level, const Appearance& appearance, ElementRims rims,
+                  const Task& task) {
   ElementLayout layout(field, level, appearance);
-  layout.lay(task);
+  layout.lay(rims, task);
 }
 
 }  // namespace terrazzo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -28,7 +29,7 @@ struct PackTuning {
   double seen_around = 0.15;
   double around = 6;
   double used = 0.08;
-  double step = 0.12;
+  double step = 0.24;
   double contact = 0.3;
   double contact_within = 0.08;
   double farthest_moved = 0.2;
@@ -88,7 +89,11 @@ std::array<std::pair<int, int>, 4> moves(int reach) {
 }  // namespace
 
 ElementPacking::ElementPacking(const ElementShapes& shapes, const Plane& plane)
-    : shapes_(shapes), plane_(plane), tolerance_(pack_tuning->tolerance * shapes.typical_side) {}
+    : shapes_(shapes), plane_(plane), tolerance_(pack_tuning->tolerance * shapes.typical_side) {
+  for (int e = 0; e < int(shapes.all.size()); e++)
+    if (!shapes[e].unusable && !shapes[e].samples.empty()) largest_first_.push_back(e);
+  std::ranges::stable_sort(largest_first_, std::ranges::greater{}, [&](int e) { return shapes[e].area; });
+}
 
 void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
   kept_depth_ = signed_distances(blocks, plane_.size, plane_.tile_x && plane_.tile_y, farthest);
@@ -193,26 +198,33 @@ double ElementPacking::Fit::value() const {
   return gain + pack_tuning->contact * contact;
 }
 
-/// Its centre at a place; `but`: as if that placed element were not there.
-ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, int row, double overlap, int but) const {
-  Fit out;
+/// Its centre at a place; `but`: as if that placed element were not there. Nothing as soon as it is clear that it fits
+/// too little or its value does not exceed `least`.
+std::optional<ElementPacking::Fit> ElementPacking::fit(const ElementShape& shape, int column, int row,
+                                                       const FitThresholds& terms, double least, int but) const {
   const double soft = pack_tuning->soft * shapes_.typical_side;
+  double gain = 0, left = double(shape.samples.size());
+  const double least_sum = std::max(terms.least_gain, least - pack_tuning->contact) * left;
   for (const ElementSample& s : shape.samples) {
+    if (gain + left < least_sum) return std::nullopt;
+    left--;
     const int64_t i = plane_.index(column + s.x, row + s.y);
     if (i < 0) continue;
     const float there = depth_but(places_[size_t(i)], but);
-    out.gain += there < 0 ? 1 : -overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
+    gain += there < 0 ? 1 : -terms.overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
   }
-  out.gain /= double(shape.samples.size());
+  Fit out{.gain = gain / double(shape.samples.size())};
   const double within = std::max(1.0, pack_tuning->contact_within * shapes_.typical_side);
+  double contact = 0;
   int inside = 0;
   for (const ElementSample& s : shape.outline) {
     const int64_t i = plane_.index(column + s.x, row + s.y);
     if (i < 0) continue;
     inside++;
-    out.contact += std::max(0.0, 1 - std::abs(double(depth_but(places_[size_t(i)], but) + s.depth)) / within);
+    contact += std::max(0.0, 1 - std::abs(double(depth_but(places_[size_t(i)], but) + s.depth)) / within);
   }
-  if (inside > 0) out.contact /= inside;
+  if (inside > 0) out.contact = contact / inside;
+  if (out.gain < terms.least_gain || out.value() <= least) return std::nullopt;
   return out;
 }
 
@@ -236,9 +248,8 @@ bool ElementPacking::fill(const Hole& hole, const FitThresholds& terms) {
     Fit fit{};
     double value = -1e9;
   } best;
-  for (int e = 0; e < int(shapes_.all.size()); e++) {
+  for (const int e : largest_first_) {
     const ElementShape& shape = shapes_[e];
-    if (shape.unusable || shape.samples.empty()) continue;
     const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
     const double price =
         pack_tuning->seen_around * seen_around(e, hole.column, hole.row) + pack_tuning->used * often * often;
@@ -246,20 +257,18 @@ bool ElementPacking::fill(const Hole& hole, const FitThresholds& terms) {
     const double most = 1 + pack_tuning->contact - price;
     if (most <= 0 || most * weight <= best.value) continue;
     for_places(shape, hole, [&](int column, int row) {
-      const Fit f = fit(shape, column, row, terms.overlap);
-      const double value = (f.value() - price) * weight;
-      if (value > best.value) best = {e, column, row, f, value};
+      if (const std::optional<Fit> f = fit(shape, column, row, terms, best.value / weight + price))
+        best = {e, column, row, *f, (f->value() - price) * weight};
     });
   }
-  if (best.element < 0 || best.fit.gain < terms.least_gain) return false;
+  if (best.element < 0) return false;
   const ElementShape& shape = shapes_[best.element];
   for (int reach = step() / 2; reach > 0; reach /= 2)
     for (bool moved = true; moved;) {
       moved = false;
       for (const auto& [x, y] : moves(reach))
-        if (const Fit f = fit(shape, best.column + x, best.row + y, terms.overlap);
-            f.value() > best.fit.value() + 1e-9) {
-          best = {best.element, best.column + x, best.row + y, f, best.value};
+        if (const std::optional<Fit> f = fit(shape, best.column + x, best.row + y, terms, best.fit.value() + 1e-9)) {
+          best = {best.element, best.column + x, best.row + y, *f, best.value};
           moved = true;
         }
     }
@@ -274,7 +283,7 @@ bool ElementPacking::fill(const Hole& hole, const FitThresholds& terms) {
 
 /// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
 void ElementPacking::settle(const Task& task) {
-  const double overlap = pack_tuning->overlap;
+  const FitThresholds any{-1e9, pack_tuning->overlap};
   const int farthest = std::max(1, int(pack_tuning->farthest_moved * shapes_.typical_side));
   for (int round = 0; round < pack_tuning->settling; round++) {
     task.check();
@@ -284,17 +293,19 @@ void ElementPacking::settle(const Task& task) {
       if (placed_[i].stays) return;
       const ElementShape& shape = shapes_[placed_[i].element];
       const int column = shapes_.column_of(placed_[i]), row = shapes_.row_of(placed_[i]);
-      const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, overlap, n).value(); };
       int x = 0, y = 0;
-      double best = value(0, 0);
+      double best = -1e9;
+      const auto move = [&](int dx, int dy) {
+        const std::optional<Fit> f = fit(shape, column + x + dx, row + y + dy, any, best, n);
+        if (!f) return;
+        best = f->value();
+        x += dx;
+        y += dy;
+      };
+      move(0, 0);
       const double least = best + pack_tuning->worth_moving;
       for (int reach = farthest; reach > 0; reach /= 2)
-        for (const auto& [dx, dy] : moves(reach))
-          if (const double v = value(x + dx, y + dy); v > best) {
-            best = v;
-            x += dx;
-            y += dy;
-          }
+        for (const auto& [dx, dy] : moves(reach)) move(dx, dy);
       if (best < least) return;
       moved[i].shift_x -= (x + (x > 0 ? 1 : 0)) / 2 * shapes_.block;
       moved[i].shift_y -= (y + (y > 0 ? 1 : 0)) / 2 * shapes_.block;

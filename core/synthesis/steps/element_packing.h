@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/task.h"
@@ -79,7 +80,8 @@ class ElementPacking {
     double contact = 0;  ///< the share of its outline along which others end
     double value() const;
   };
-  Fit fit(const ElementShape& shape, int column, int row, double overlap, int but = -1) const;
+  std::optional<Fit> fit(const ElementShape& shape, int column, int row, const FitThresholds& terms, double least,
+                         int but = -1) const;
   float depth_but(const Place& p, int but) const {
     return (p.placed == but && but >= 0 ? p.neighbour : p.depth).blocks();
   }
@@ -91,6 +93,7 @@ class ElementPacking {
   std::vector<PlacedElement> placed_;
   std::vector<Place> places_;
   std::vector<float> kept_depth_;                ///< of each block in what is kept; empty: nothing is
+  std::vector<int> largest_first_;               ///< elements that may be laid
   std::vector<std::vector<size_t>> of_element_;  ///< of each element: where in placed_ it is
 };
 

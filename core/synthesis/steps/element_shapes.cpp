@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -87,6 +88,14 @@ void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   shape.cut |= !grid.plane.tile_x && at_border;
 }
 
+/// So that the first few tell what all of them will: each far from the one before.
+void scatter(std::vector<ElementSample>& samples) {
+  const std::vector<ElementSample> in_rows = samples;
+  size_t stride = std::max<size_t>(1, in_rows.size() * 5 / 8);
+  while (std::gcd(stride, in_rows.size()) > 1) stride++;
+  for (size_t i = 0; i < in_rows.size(); i++) samples[i] = in_rows[i * stride % in_rows.size()];
+}
+
 void measure(const Grid& grid, int element, int margin, const Extent& e, ElementShape& shape) {
   shape.centre_x = int(std::floor(e.sum_x / double(shape.area) + 0.5));
   shape.centre_y = int(std::floor(e.sum_y / double(shape.area) + 0.5));
@@ -114,6 +123,7 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Element
   });
   const size_t every = std::max<size_t>(1, outline.size() / size_t(element_shapes_tuning->outline));
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
+  scatter(shape.samples);
 }
 
 /// Elements that the exemplar's border cuts. Where most of the exemplar lies in such, those end there that are not much

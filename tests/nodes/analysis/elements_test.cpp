@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/analysis/elements/find_elements.h"
 #include "tests/drawn_stones.h"
 #include "tests/run_node.h"
 
@@ -40,4 +41,26 @@ TEST_CASE("what certainty is asked for decides") {
   };
   CHECK(found({{"least_certainty", 0.0}}));
   CHECK_FALSE(found({}));
+}
+
+TEST_CASE("without a lattice elements may be less sure") {
+  const std::vector<float> stones = DrawnStones({128, 128}).image()->pixels();
+  const FeaturesPtr plain = plain_features(make_image({128, 128}, 1,
+                                                      [&](int x, int y, int) {
+                                                        return 0.2f * stones[size_t(y) * 128 + size_t(x)] +
+                                                               0.8f * float(unit_double(random_bits(2, x, y)));
+                                                      }),
+                                           true);
+  const Repeats repeats = Lattice{2, {16, 0}, {0, 16}, 0.9};
+  const double certainty = find_elements(*plain, Task())->certainty;
+  REQUIRE(certainty > 0.1);
+  REQUIRE(certainty < 0.8);
+  const auto found = [&](const FeaturesPtr& features, double least) {
+    const NodeRun run = run_node("elements", {{"least_certainty", least}}, {{"features", {features}}});
+    return run.get<Features>("features")->elements() != nullptr;
+  };
+  const double more = certainty / 0.8;
+  CHECK(found(plain, more));
+  CHECK_FALSE(found(plain->with(repeats), more));
+  CHECK(found(plain->with(repeats), certainty));
 }

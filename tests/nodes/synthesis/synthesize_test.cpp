@@ -179,6 +179,17 @@ TEST_CASE("how many elements are whole is told, and doubtful results are warned 
   CHECK_FALSE(made(two, false, {100, 100}).says("too few to be laid"));
 }
 
+TEST_CASE("stones of a heap lie partly under others, which is no fault") {
+  const DrawnStones stones({240, 240});
+  Elements unsure = stones.elements();
+  unsure.certainty = 0.3;
+  const FeaturesPtr features = plain_features(stones.image(), true)->with(std::make_shared<const Elements>(unsure));
+  const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+  const NodeRun run = run_node("synthesize", {{"size", Size{400, 400}}}, {{"index", {index}}});
+  CHECK(run.says("others lie partly under them; they show "));
+  CHECK_FALSE(run.says("torn"));
+}
+
 TEST_CASE("elements cut in phase with cells that bring their joints together are not doubted") {
   // Blurred noise, which says nothing of the squares that it is parted into.
   const ImagePtr noise = make_image({96, 96}, 1, [](int x, int y, int) {

@@ -20,10 +20,24 @@ const Task task;
 constexpr Size exemplar{240, 240};
 
 /// `known`: the analysis knows the elements.
-IndexPtr index_of(const DrawnStones& stones, bool known, bool wraps = true) {
+IndexPtr index_of(const DrawnStones& stones, bool known, bool wraps = true, double certainty = 1) {
   FeaturesPtr features = plain_features(stones.image(), wraps);
-  if (known) features = features->with(std::make_shared<const Elements>(stones.elements()));
+  Elements elements = stones.elements();
+  elements.certainty = certainty;
+  if (known) features = features->with(std::make_shared<const Elements>(elements));
   return make_index(make_appearance(*features, {}, {}, task), 3, task);
+}
+
+/// Of the pixels, how many go on to the right as the exemplar does.
+double continued(const UvMap& uv) {
+  const Size size = uv.exemplar();
+  int count = 0;
+  for (int y = 0; y < uv.size().height; y++)
+    for (int x = 1; x < uv.size().width; x++) {
+      const ExemplarPixel p = uv.at(x - 1, y), q = uv.at(x, y);
+      count += (p.x + 1) % size.width == q.x && p.y == q.y;
+    }
+  return double(count) / double(uv.size().area());
 }
 
 UvMapPtr made(const Index& index, const SynthesisOptions& options) {
@@ -45,6 +59,17 @@ TEST_CASE("stones are laid as wholes where the analysis knows them") {
     CHECK(hybrids(stones, *without) > 0.2);
     CHECK(hybrids(stones, *with) < 0.05);
   }
+}
+
+TEST_CASE("stones whose outlines are not sure are laid as they are, and seams find their joints") {
+  const DrawnStones stones(exemplar);
+  const SynthesisOptions options{.size = {420, 400}, .seed = 1};
+  const UvMapPtr plain = made(*index_of(stones, false), options), bent = made(*index_of(stones, true), options);
+  const IndexPtr unsure = index_of(stones, true, true, 0.3);
+  REQUIRE(are_heaped(*unsure->appearance()));
+  const UvMapPtr heaped = made(*unsure, options);
+  CHECK(hybrids(stones, *heaped) < 0.7 * hybrids(stones, *plain));
+  CHECK(continued(*heaped) > continued(*bent) + 0.01);
 }
 
 TEST_CASE("an exemplar that does not tile offers its whole stones only") {
@@ -179,7 +204,12 @@ TEST_CASE("elements of courses stay at the height of their course") {
 
 TEST_CASE("laid stones do not depend on the number of threads, nor on how a surface is cut into parts") {
   const DrawnStones stones(exemplar);
-  const IndexPtr index = index_of(stones, true);
+  double certainty = 1;
+  SUBCASE("bent") {}
+  SUBCASE("heaped") {
+    certainty = 0.3;
+  }
+  const IndexPtr index = index_of(stones, true, true, certainty);
   const SynthesisOptions options{.size = {220, 200}, .seed = 5};
   const auto with = [&](int threads) {
     tbb::task_arena arena(threads);
