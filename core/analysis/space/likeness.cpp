@@ -65,14 +65,42 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return size > 0 && std::isfinite(size) ? product / size : 0;
 }
 
-/// A map's cells in analysis space.
-std::vector<float> cells_of(const Map& map, Size cells, int& channels) {
-  const Digest recipe = Hasher().add("cells").add(map.image->digest()).add(cells.width).add(cells.height).digest();
-  const ImagePtr small = analysis_image(resampled(map.image, cells, "box", Outside::clamp, recipe));
+/// How a map's cells come to be in analysis space.
+enum class CellMeans {
+  quick,  ///< from the means of the map's own values
+  exact,  ///< as means of what is compared in the analysis: of dark grain they differ
+};
+
+std::vector<float> cells_of(const Map& map, Size cells, CellMeans means, int& channels) {
+  const bool quick = means == CellMeans::quick;
+  const ImagePtr image = quick ? map.image : analysis_image(map.image);
+  const Digest recipe = Hasher().add("cells").add(image->digest()).add(cells.width).add(cells.height).digest();
+  ImagePtr small = resampled(image, cells, "box", Outside::clamp, recipe);
+  if (quick) small = analysis_image(small);
   channels = small->channels();
   std::vector<float> pixels(size_t(cells.area()) * channels);
   small->read(whole(cells), pixels.data());
   return pixels;
+}
+
+Likeness likeness_by(CellMeans means, const Fingerprint& analysed, const Material& material, const Task& task) {
+  Likeness best;
+  for (const Map& map : material.maps()) {
+    int channels = 0;
+    std::vector<float> cells;
+    for (const Fingerprint::Channel& c : analysed.channels) {
+      if (c.map != map.name || c.map.empty()) continue;
+      task.check();
+      if (cells.empty()) cells = cells_of(map, analysed.cells, means, channels);
+      if (c.channel >= channels) continue;
+      if (best.maps.empty() || best.maps.back() != map.name) best.maps.push_back(map.name);
+      best.correlation =
+          std::max(best.correlation, std::abs(correlation(details(c.means.data(), 1, analysed.cells),
+                                                          details(&cells[c.channel], channels, analysed.cells))));
+    }
+    if (best.correlation >= likeness_tuning->least) break;
+  }
+  return best;
 }
 
 }  // namespace
@@ -102,23 +130,9 @@ Fingerprint fingerprint_of(const Features& features, const Planes& channels) {
 
 std::optional<Likeness> likeness(const Fingerprint& analysed, const Material& material, const Task& task) {
   if (analysed.cells.area() < likeness_tuning->fewest_cells) return {};
-  Likeness best;
-  for (const Map& map : material.maps()) {
-    int channels = 0;
-    std::vector<float> cells;
-    for (const Fingerprint::Channel& c : analysed.channels) {
-      if (c.map != map.name || c.map.empty()) continue;
-      task.check();
-      if (cells.empty()) cells = cells_of(map, analysed.cells, channels);
-      if (c.channel >= channels) continue;
-      if (best.maps.empty() || best.maps.back() != map.name) best.maps.push_back(map.name);
-      best.correlation =
-          std::max(best.correlation, std::abs(correlation(details(c.means.data(), 1, analysed.cells),
-                                                          details(&cells[c.channel], channels, analysed.cells))));
-    }
-    if (best.correlation >= likeness_tuning->least) break;
-  }
+  Likeness best = likeness_by(CellMeans::quick, analysed, material, task);
   if (best.maps.empty()) return {};
+  if (best.correlation < likeness_tuning->least) best = likeness_by(CellMeans::exact, analysed, material, task);
   return best;
 }
 

@@ -48,6 +48,22 @@ TEST_CASE("an exemplar is like itself: larger, smaller, inverted, and by one map
   CHECK(likeness(f, *material(wall(size), bumps(size, 2)), Task())->correlation > 0.95);
 }
 
+TEST_CASE("an exemplar of one mean everywhere is like itself by the contrast of its grain") {
+  constexpr Size size{96, 64};
+  const auto grain = [&](uint64_t seed) {
+    return make_image(
+        size, 3,
+        [&](int x, int y, int) {
+          const float spread = 0.06f * float(unit_double(random_bits(seed, x / 8, y / 8)));
+          return (x + y) % 2 == 0 ? 0.06f - spread : 0.06f + spread;
+        },
+        Semantic::base_color);
+  };
+  const Fingerprint f = fingerprint(*Material::of(grain(1)));
+  CHECK(likeness(f, *Material::of(grain(1)), Task())->correlation > 0.95);
+  CHECK(likeness(f, *Material::of(grain(2)), Task())->correlation < least_likeness());
+}
+
 TEST_CASE("another exemplar is not like it") {
   constexpr Size size{96, 64};
   const Fingerprint f = fingerprint(*Material::of(bumps(size, 1)));
