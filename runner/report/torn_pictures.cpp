@@ -27,8 +27,7 @@ std::shared_ptr<const T> kept_value(const RunResult& result, const std::string& 
 
 ImagePtr colours_of(const std::vector<ShownMaterial>& results, Size size) {
   for (const ShownMaterial& m : results)
-    if (const ImagePtr image = m.material->find(Semantic::base_color); image && image->info().size == size)
-      return image;
+    if (ImagePtr image = m.material->find(Semantic::base_color); image && image->info().size == size) return image;
   return nullptr;
 }
 

@@ -8,7 +8,8 @@ namespace terrazzo {
 
 /// The certainty from which on elements are taken for such, unless another is asked for.
 inline constexpr double sure_elements = 0.3;
-/// The same in parts where there is no lattice: nothing else keeps stones whole (experiments.md, "heaped_elements").
+/// The share of it that will do where there is no lattice: nothing else keeps stones whole there (experiments.md,
+/// "heaped_elements").
 inline constexpr double sure_without_lattice = 0.75;
 
 /// Parts an exemplar into its elements: the picture is flooded from within them (catchment_basins) up to the joints,

@@ -290,8 +290,8 @@ void ElementPacking::settle(const Task& task) {
     std::vector<PlacedElement> moved = placed_;
     tbb::parallel_for(0, int(placed_.size()), [&](int n) {
       const auto i = size_t(n);
-      if (placed_[i].stays) return;
       const ElementShape& shape = shapes_[placed_[i].element];
+      if (placed_[i].stays || shape.samples.empty()) return;
       const int column = shapes_.column_of(placed_[i]), row = shapes_.row_of(placed_[i]);
       int x = 0, y = 0;
       double best = -1e9;
