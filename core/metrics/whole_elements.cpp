@@ -20,6 +20,7 @@ struct WholeElementsTuning {
   double alone = 0.85;
   double most_of_it = 0.75;
   double least_whole = 0.6;
+  double least_whole_in_heaps = 0.45;
   double most_missing = 0.5;
   int samples = 12;
 };
@@ -36,6 +37,8 @@ const Tunable<WholeElementsTuning> whole_elements_tuning(
      {&WholeElementsTuning::least_whole, "least_whole", "share of all elements",
       "below which a result is doubted. Higher: good results are doubted as well; lower: bad ones pass",
       "whole_elements", 0, 1},
+     {&WholeElementsTuning::least_whole_in_heaps, "least_whole_in_heaps", "share of all elements",
+      "the same where elements lie partly under others", "heaped_elements", 0, 1},
      {&WholeElementsTuning::most_missing, "most_missing", "share of the exemplar's area",
       "above which a result is doubted. Higher: results that lack much pass; lower: those that lack a corner do not",
       "whole_elements", 0, 1},
@@ -205,8 +208,9 @@ class LaidElements {
 
 }  // namespace
 
-bool ShownElements::are_broken() const {
-  return all > 0 && whole < whole_elements_tuning->least_whole * all;
+bool ShownElements::are_broken(bool heaped) const {
+  return all > 0 &&
+         whole < (heaped ? whole_elements_tuning->least_whole_in_heaps : whole_elements_tuning->least_whole) * all;
 }
 
 bool ShownElements::lack_most() const {

@@ -17,8 +17,9 @@ struct ShownElements {
   int distinct = 0;    ///< different elements of the exemplar among the whole ones
   double missing = 0;  ///< share of the exemplar's area in elements that are not shown at all, 0..1
 
-  /// Whether so few elements are whole that the result is not to be trusted.
-  bool are_broken() const;
+  /// Whether so few elements are whole that the result is not to be trusted. `heaped`: some lie under others, and need
+  /// not be whole.
+  bool are_broken(bool heaped) const;
   /// Whether so much of the exemplar is missing that the result looks like another material.
   bool lack_most() const;
 };

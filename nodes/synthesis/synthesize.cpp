@@ -52,11 +52,11 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
     return;
   }
   const ShownElements shown = shown_elements(uv, *elements, node.task());
+  const bool heaped = are_heaped(appearance), broken = shown.are_broken(heaped);
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
-  if (shown.are_broken() && (options.tile_x || options.tile_y) && lays_courses(appearance, options))
+  if (broken && (options.tile_x || options.tile_y) && lays_courses(appearance, options))
     node.note(counts + ", others are a little shorter or longer, so that courses end where the result does");
-  else if (shown.are_broken() && !are_heaped(appearance) &&
-           !are_in_step(*elements, repeats_in_result(appearance, options).lattice, appearance.wraps()))
+  else if (broken && !are_in_step(*elements, repeats_in_result(appearance, options).lattice, appearance.wraps()))
     node.warn(
         counts +
         ", the others are torn or melted together: look at them (the node `torn_elements` and --report mark them). "
@@ -67,8 +67,8 @@ void tell_of_elements(NodeContext& node, const Index& index, const SynthesisOpti
                     "laid. An exemplar that shows more of them whole, or that tiles, helps",
                     counts, 100 * shown.missing));
   else if (shown.all > 0)
-    node.note(fmt::format("{}{}; they show {} different ones", counts,
-                          are_heaped(appearance) ? ", others lie partly under them" : "", shown.distinct));
+    node.note(fmt::format("{}{}; they show {} different ones", counts, heaped ? ", others lie partly under them" : "",
+                          shown.distinct));
 }
 
 /// Warns of a result in which joints and edges end that go on in the exemplar. Unlike elements, they are always known.

@@ -55,7 +55,7 @@ std::vector<TornPicture> torn_pictures(const Graph& graph, const RunResult& resu
     const IndexPtr index = kept_value<Index>(result, at->second.front().node);
     if (!index || !index->appearance()->elements() || uv->exemplar() != index->appearance()->size()) continue;
     const Elements& elements = *index->appearance()->elements();
-    if (are_heaped(*index->appearance()) || !shown_elements(*uv, elements, task).are_broken()) continue;
+    if (!shown_elements(*uv, elements, task).are_broken(are_heaped(*index->appearance()))) continue;
     const std::vector<uint8_t> torn = torn_elements(*uv, elements, task);
     const ImagePtr mask = Image::from_floats({.size = uv->size(), .semantic = Semantic::mask, .depth = Depth::u8},
                                              {torn.begin(), torn.end()});

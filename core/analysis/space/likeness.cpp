@@ -71,6 +71,7 @@ enum class CellMeans {
   exact,  ///< as means of what is compared in the analysis: of dark grain they differ
 };
 
+/// A map's cells in analysis space.
 std::vector<float> cells_of(const Map& map, Size cells, CellMeans means, int& channels) {
   const bool quick = means == CellMeans::quick;
   const ImagePtr image = quick ? map.image : analysis_image(map.image);

@@ -48,6 +48,12 @@ struct CorrectionLevel {
     exemplar.settle_inside(u, v);
     return exemplar.is_usable(u, v);
   }
+  /// Whether b lies so many blocks beside and below a in the exemplar, around its border if it tiles.
+  bool is_next(const ExemplarPixel& a, const ExemplarPixel& b, int dx, int dy) const {
+    int u = a.x + dx * block, v = a.y + dy * block;
+    exemplar.unwind(u, v);
+    return u == b.x && v == b.y;
+  }
   /// Whether a pixel that shows `now` may come to show something usable instead: it is not fixed, does not get its past
   /// back, and suits the controls no less. `pixel`: of a field that holds the whole plane.
   bool may_change(int pixel, const ExemplarPixel& now, const ExemplarPixel& offered) const {

@@ -59,12 +59,6 @@ void ExpansionProblem::find_edges() {
   });
 }
 
-bool ExpansionProblem::is_next(ExemplarPixel a, ExemplarPixel b, int side) const {
-  int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
-  level.exemplar.unwind(u, v);
-  return u == b.x && v == b.y;
-}
-
 bool ExpansionProblem::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
   int u = a.x + sides[side][0] * level.block, v = a.y + sides[side][1] * level.block;
   if (level.block == 1 || level.exemplar.wraps()) level.exemplar.settle_inside(u, v);
@@ -149,7 +143,9 @@ void Expansion::connect(int n) {
       const int64_t neither = problem_.mismatch(kept, other, side), first = problem_.mismatch(f.offered, other, side),
                     both = problem_.mismatch(f.offered, offered, side);
       // Where both go on, either seam compares the same pixels.
-      const bool go_on = problem_.is_next(kept, other, side) && problem_.is_next(f.offered, offered, side);
+      const auto [dx, dy] = sides[side];
+      const bool go_on =
+          problem_.level.is_next(kept, other, dx, dy) && problem_.level.is_next(f.offered, offered, dx, dy);
       const int64_t second = go_on ? first : problem_.mismatch(kept, offered, side);
       cut_.prefer_source(n, neither - first);
       cut_.prefer_source(node, first - both);

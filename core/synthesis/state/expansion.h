@@ -21,8 +21,6 @@ struct ExpansionProblem {
   /// How visible the seam is where a pixel shows a and its neighbour on that side (of field.h) shows b: 0 if b
   /// continues a. The exemplar's last pixel is continued by itself.
   int64_t mismatch(ExemplarPixel a, ExemplarPixel b, int side) const;
-  /// Whether b lies beside a in the exemplar, around its border if it tiles.
-  bool is_next(ExemplarPixel a, ExemplarPixel b, int side) const;
 
   Field& field;
   const CorrectionLevel& level;

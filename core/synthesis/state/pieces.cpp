@@ -10,19 +10,15 @@ namespace terrazzo {
 
 Pieces::Pieces(const Field& field, const CorrectionLevel& level) {
   const Size size = field.size;
-  const int block = level.block;
   const auto continues = [&](int from, int to, int dx, int dy) {
-    const ExemplarPixel p = field.pixels[size_t(from)], q = field.pixels[size_t(to)];
-    int u = p.x + dx, v = p.y + dy;
-    level.exemplar.unwind(u, v);
-    return u == q.x && v == q.y;
+    return level.is_next(field.pixels[size_t(from)], field.pixels[size_t(to)], dx, dy);
   };
   std::vector<Run> runs;
   std::vector<size_t> rows{0};  // where each row's runs begin
   for (int y = 0; y < size.height; y++) {
     for (int x = 0; x < size.width; x++) {
       const int i = y * size.width + x;
-      if (x > 0 && continues(i - 1, i, block, 0))
+      if (x > 0 && continues(i - 1, i, 1, 0))
         runs.back().length++;
       else
         runs.push_back({i, 1});
@@ -36,14 +32,14 @@ Pieces::Pieces(const Field& field, const CorrectionLevel& level) {
     while (a < rows[size_t(upper) + 1] && b < rows[size_t(lower) + 1]) {
       const int a_x = runs[a].first - upper * size.width, b_x = runs[b].first - lower * size.width;
       const int x = std::max(a_x, b_x), a_end = a_x + runs[a].length, b_end = b_x + runs[b].length;
-      if (continues(upper * size.width + x, lower * size.width + x, 0, block)) joined.join(uint32_t(a), uint32_t(b));
+      if (continues(upper * size.width + x, lower * size.width + x, 0, 1)) joined.join(uint32_t(a), uint32_t(b));
       a += a_end <= b_end;
       b += b_end <= a_end;
     }
   };
   for (int y = 0; y < size.height; y++) {
     const size_t first = rows[size_t(y)], last = rows[size_t(y) + 1] - 1;
-    if (level.window.closed_x && continues(runs[last].first + runs[last].length - 1, runs[first].first, block, 0))
+    if (level.window.closed_x && continues(runs[last].first + runs[last].length - 1, runs[first].first, 1, 0))
       joined.join(uint32_t(first), uint32_t(last));
     if (y > 0 || level.window.closed_y) join_rows(y > 0 ? y - 1 : size.height - 1, y);
   }
