@@ -1,5 +1,7 @@
 // The only file that includes CLI11, whose templates take long to compile.
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <string_view>
 
@@ -34,11 +36,39 @@ std::string in_plain_words(const std::string& message) {
   return fmt::format("{}: expected once, found {} times", message.substr(0, at), message.substr(at + too_often.size()));
 }
 
+using Related = std::vector<const CLI::Option*>;
+
+/// What an option needs and excludes, each in the order of the command's options. CLI11 sorts them by address, so that
+/// its help and its messages differ from run to run.
+struct Relations {
+  Related needs{}, excludes{};
+};
+
+/// CLI11's help, with each option's relations.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::map<const CLI::Option*, Relations> relations;
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = Formatter::make_option_opts(option);
+    const auto found = relations.find(option);
+    if (found == relations.end()) return text;
+    const auto append = [&](const char* what, const Related& others) {
+      if (!others.empty()) text += fmt::format(" {}:", what);
+      for (const CLI::Option* other : others) text += " " + other->get_name();
+    };
+    append("Needs", found->second.needs);
+    append("Excludes", found->second.excludes);
+    return text;
+  }
+};
+
 /// A CLI11 parser built from commands.
 class Parser {
  public:
   Parser(Command& program, const std::string& version) : app_(program.help, program.path), version_(version) {
-    app_.get_formatter()->column_width(32);
+    formatter_->column_width(32);
+    app_.formatter(formatter_);
     add_to(app_, program);
     app_.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
   }
@@ -49,6 +79,7 @@ class Parser {
     try {
       app_.parse(argc, argv);
       finish(out);
+      check_relations();
       if (!out.command->run) out = {Request::nothing_known, out.command, CLI::RequiredError("A command").what()};
       return out;
     } catch (const CLI::CallForVersion& e) {
@@ -74,10 +105,16 @@ class Parser {
         options_[made] = &option;
         by_name[option.long_name()] = made;
       }
-    for (const CommandOption& option : command.options) {
-      for (const std::string& other : option.excludes) by_name.at(option.long_name())->excludes(by_name.at(other));
-      for (const std::string& other : option.needs) by_name.at(option.long_name())->needs(by_name.at(other));
-    }
+    const auto names = [](const std::vector<std::string>& all, const CommandOption& one) {
+      return std::ranges::find(all, one.long_name()) != all.end();
+    };
+    for (const CommandOption& option : command.options)
+      for (const CommandOption& other : command.options) {
+        const auto relations = [&]() -> Relations& { return formatter_->relations[by_name.at(option.long_name())]; };
+        if (names(option.needs, other)) relations().needs.push_back(by_name.at(other.long_name()));
+        if (names(option.excludes, other) || names(other.excludes, option))
+          relations().excludes.push_back(by_name.at(other.long_name()));
+      }
     for (Command& sub : command.commands) add_to(*app.add_subcommand(sub.name(), sub.help), sub);
     if (!command.commands.empty()) app.require_subcommand(1);
   }
@@ -113,15 +150,35 @@ class Parser {
     return made;
   }
 
+  /// Throws CLI11's errors for options that are given without what they need, or with what they exclude.
+  void check_relations() const {
+    for (const auto& app : named_commands())
+      for (const CLI::Option* option : app->get_options()) {
+        const auto found = formatter_->relations.find(option);
+        if (option->count() == 0 || found == formatter_->relations.end()) continue;
+        for (const CLI::Option* other : found->second.needs)
+          if (other->count() == 0) throw CLI::RequiresError(option->get_name(), other->get_name());
+        for (const CLI::Option* other : found->second.excludes)
+          if (other->count() > 0) throw CLI::ExcludesError(option->get_name(), other->get_name());
+      }
+  }
+
+  /// The program, the command, its command...
+  std::vector<const CLI::App*> named_commands() const {
+    std::vector<const CLI::App*> all = {&app_};
+    while (!all.back()->get_subcommands().empty()) all.push_back(all.back()->get_subcommands().front());
+    return all;
+  }
+
   /// The named command, its options' values, and the remaining words.
   void finish(ParsedWords& out) const {
-    const CLI::App* named = &app_;
-    while (!named->get_subcommands().empty()) named = named->get_subcommands().front();
+    const CLI::App* const named = named_commands().back();
     out.command = commands_.at(named);
     out.unknown = named->remaining();
     for (const auto& [made, option] : options_) option->given = made->results();
   }
 
+  std::shared_ptr<HelpFormatter> formatter_ = std::make_shared<HelpFormatter>();
   CLI::App app_;
   std::string version_;
   std::map<const CLI::App*, Command*> commands_;

@@ -1,5 +1,8 @@
 #include "runner/terminal/command.h"
 
+#include <algorithm>
+#include <memory>
+
 #include <doctest/doctest.h>
 
 using namespace terrazzo;
@@ -64,7 +67,7 @@ TEST_CASE("what is wrong with words is said, and of which command") {
   CHECK(wrong({"make"}) == "SOURCE is required");
   CHECK(wrong({"make", "a", "--threads", "9"}) == "--threads: Value 9 not in range 1 to 8");
   CHECK(wrong({"make", "a", "--force"}) == "--force requires --out");
-  CHECK(wrong({"make", "a", "--threads", "2", "-o", "b"}).find("excludes") != std::string::npos);
+  CHECK(wrong({"make", "a", "--threads", "2", "-o", "b"}) == "--out excludes --threads");
 
   Command program = program_for(to);
   const ParsedWords unknown = parsed(program, {"make", "a", "--sise", "3"});
@@ -80,4 +83,26 @@ TEST_CASE("help is that of the command named, whatever else is missing") {
   CHECK(out.request == ParsedWords::Request::help);
   CHECK(out.command->name() == "make");
   CHECK(out.text.find("-o,--out DIR") != std::string::npos);
+}
+
+TEST_CASE("help and messages name options in their order, wherever in memory these lie") {
+  // Free blocks of every size, which malloc gives out again from the highest address to the lowest.
+  constexpr size_t sizes = 128, of_each = 7;
+  std::vector<std::unique_ptr<char[]>> blocks;
+  for (size_t i = 0; i < of_each; ++i)
+    for (size_t size = 1; size <= sizes; ++size) blocks.push_back(std::make_unique<char[]>(size * 16));
+  std::ranges::sort(blocks, {}, [](const auto& block) { return uintptr_t(block.get()); });
+  for (auto& b : blocks) b.reset();
+
+  bool a = false, b = false, c = false, all = false;
+  Command program("tool", "A tool");
+  Command& make = program.add_command("make", "Makes");
+  make.add_flag("--a", &a, "A");
+  make.add_flag("--b", &b, "B");
+  make.add_flag("--c", &c, "C");
+  make.add_flag("--all", &all, "All").not_with("--c").not_with("--a").not_with("--b");
+  make.run = [] { return 0; };
+  CHECK(parsed(program, {"make", "--help"}).text.find("--all Excludes: --a --b --c") != std::string::npos);
+  CHECK(parsed(program, {"make", "--help"}).text.find("--b Excludes: --all") != std::string::npos);
+  CHECK(parsed(program, {"make", "--all", "--c", "--b"}).text == "--b excludes --all");
 }
