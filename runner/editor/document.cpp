@@ -107,6 +107,7 @@ class EditedDocument::Data {
   int64_t revision = 1;
   OnDisk on_disk = OnDisk::same;
   std::string save_error, conflict, theirs;
+  std::optional<std::string> unsettled;  ///< a text on disk that cannot be read, and may be half written
 
   void open(const fs::path& path, const std::optional<std::string>& begin) {
     file = fs::absolute(path).lexically_normal();
@@ -150,23 +151,21 @@ class EditedDocument::Data {
     if (!pointer.empty()) throw EditConflict(pointer, "it was changed elsewhere at the same time: " + pointer);
   }
 
-  /// Takes over what has changed on disk. Returns whether anything visible has.
-  bool follow_disk() {
-    const int64_t before = revision;
+  /// Takes over what has changed on disk. `again`: some time has passed since the last call with it.
+  void follow_disk(bool again) {
     try {
-      follow_graph(content_of(file));
+      follow_graph(content_of(file), again);
       if (const std::optional<std::string> text = content_of(layout_file); text.value_or("") != disk.layout)
         follow_layout(text.value_or(""));
     } catch (const FileError& e) {
       set_error(e.what());
     }
-    return revision != before;
   }
 
   void save() {
     if (read_only) return;
-    follow_disk();
-    if (on_disk != OnDisk::same) return;
+    follow_disk(false);
+    if (on_disk != OnDisk::same || unsettled) return;
     try {
       if (now.graph != disk.graph || !exists) {
         refuse_write_protected(file);
@@ -195,7 +194,9 @@ class EditedDocument::Data {
     conflict = why;
   }
 
-  void follow_graph(const std::optional<std::string>& text) {
+  void follow_graph(const std::optional<std::string>& text, bool again) {
+    if (text && is_half_written(*text, again)) return;
+    unsettled.reset();
     if (!text) {
       if (exists) set_on_disk(OnDisk::gone, "the file has been removed or renamed");
       return;
@@ -216,6 +217,14 @@ class EditedDocument::Data {
     take({merge.text, now.layout});
     disk.graph = *text;
     set_on_disk(OnDisk::same, "");
+  }
+
+  /// Another program may be writing the file: a text that cannot be read counts once it is the same at the next look.
+  bool is_half_written(const std::string& text, bool again) {
+    if (text == disk.graph || text == now.graph || parse_json(text).value) return false;
+    if (again && unsettled == text) return false;
+    unsettled = text;
+    return true;
   }
 
   /// Of two changes of the same position that in memory counts.
@@ -381,7 +390,7 @@ std::string EditedDocument::copy(const std::string& level, const std::vector<std
 bool EditedDocument::look_at_disk() {
   const std::lock_guard lock(data_->mutex);
   const int64_t before = data_->revision;
-  data_->follow_disk();
+  data_->follow_disk(true);
   const bool begun = data_->exists || !data_->save_error.empty();
   if (begun && data_->on_disk == OnDisk::same && !data_->is_saved()) data_->save();
   return data_->revision != before;

@@ -1,8 +1,6 @@
 #include "runner/editor/document.h"
 
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -11,24 +9,15 @@
 #include "graphs/text/stock_graphs.h"
 #include "runner/editor/state.h"
 #include "tests/run_node.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using nlohmann::ordered_json;
-using terrazzo::test::TemporaryFolder;
+using namespace terrazzo::test;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-void put(const fs::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-}
-std::string get(const fs::path& file) {
-  std::ifstream in(file);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 ordered_json request(const std::string& edits, const std::string& label = "") {
   ordered_json out = {{"edits", ordered_json::parse("[" + edits + "]")}};
@@ -56,32 +45,32 @@ const char* add_crop = R"({"op": "add", "type": "crop", "behind": {"node": "a"}}
 TEST_CASE("an edited document is saved at once, and undone to the byte") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "g.json";
-  put(file, small);
+  write_text(file, small);
   EditedDocument document(file);
   CHECK(document.snapshot().saved);
   CHECK_FALSE(document.snapshot().undo);
   const EditAnswer answer = document.edit(request(add_crop));
   CHECK(answer.names == std::vector<std::string>{"crop"});
-  const std::string once = get(file);
+  const std::string once = read_text(file);
   CHECK(once == document.snapshot().text);
   CHECK(once.find("\"crop\"") != std::string::npos);
   CHECK(document.snapshot().undo == "add \"crop\"");
   document.edit(request(R"({"op": "remove", "nodes": ["a"]})"));
-  const std::string twice = get(file);
+  const std::string twice = read_text(file);
   document.undo();
-  CHECK(get(file) == once);
+  CHECK(read_text(file) == once);
   document.undo();
-  CHECK(get(file) == small);
+  CHECK(read_text(file) == small);
   CHECK(document.undo().revision == document.revision());
   document.redo();
   document.redo();
-  CHECK(get(file) == twice);
+  CHECK(read_text(file) == twice);
   CHECK_FALSE(document.snapshot().redo);
 }
 
 TEST_CASE("edits of one request are applied together or not at all") {
   const TemporaryFolder folder;
-  put(folder.path() / "g.json", small);
+  write_text(folder.path() / "g.json", small);
   EditedDocument document(folder.path() / "g.json");
   const std::string both =
       std::string(add_crop) + R"(, {"op": "connect", "from": "b", "to": "crop", "port": "material"})";
@@ -99,7 +88,7 @@ TEST_CASE("edits of one request are applied together or not at all") {
 
 TEST_CASE("dragging a slider is one step") {
   const TemporaryFolder folder;
-  put(folder.path() / "g.json", small);
+  write_text(folder.path() / "g.json", small);
   EditedDocument document(folder.path() / "g.json");
   for (const char* value : {"1", "2", "3"})
     document.edit(request(std::string(R"({"op": "set", "node": "a", "key": "seed", "value": )") + value + "}", "seed"));
@@ -113,7 +102,7 @@ TEST_CASE("dragging a slider is one step") {
 
 TEST_CASE("a text that is not JSON is edited as text") {
   const TemporaryFolder folder;
-  put(folder.path() / "g.json", "{\n  \"terrazzo\": 1,\n  nodes\n}");
+  write_text(folder.path() / "g.json", "{\n  \"terrazzo\": 1,\n  nodes\n}");
   EditedDocument document(folder.path() / "g.json");
   ordered_json state = state_json(document.snapshot());
   CHECK(state["broken"]["line"] == 3);
@@ -121,7 +110,7 @@ TEST_CASE("a text that is not JSON is edited as text") {
   CHECK(refusal_of(document, request(add_crop)).starts_with("the document is not JSON: "));
   CHECK_FALSE(refusal_of(document, {{"base", 7}, {"edits", {{{"op", "text"}, {"text", small}}}}}).empty());
   document.edit({{"base", 1}, {"edits", {{{"op", "text"}, {"text", small}}}}});
-  CHECK(get(folder.path() / "g.json") == small);
+  CHECK(read_text(folder.path() / "g.json") == small);
   state = state_json(document.snapshot());
   CHECK_FALSE(state.contains("broken"));
   CHECK(state["levels"][""]["nodes"].size() == 2);
@@ -133,12 +122,12 @@ TEST_CASE("a text that is not JSON is edited as text") {
   CHECK(refusal_of(document, {{"edits", {slip}}}).starts_with("line 1, column 3: "));
   slip["broken"] = true;
   document.edit({{"edits", {slip}}});
-  CHECK(get(folder.path() / "g.json") == "{ oops");
+  CHECK(read_text(folder.path() / "g.json") == "{ oops");
 }
 
 TEST_CASE("a text typed while the document changes is merged, or refused where both changed the same") {
   const TemporaryFolder folder;
-  put(folder.path() / "g.json", small);
+  write_text(folder.path() / "g.json", small);
   EditedDocument document(folder.path() / "g.json");
   document.edit(request(R"({"op": "set", "node": "b", "key": "comment", "value": "theirs"})"));
   std::string typed = small;
@@ -156,92 +145,6 @@ TEST_CASE("a text typed while the document changes is merged, or refused where b
   CHECK(document.snapshot().text == merged);
 }
 
-TEST_CASE("a change on disk is taken over, merged or asked about") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "g.json";
-  put(file, small);
-  EditedDocument document(file);
-  CHECK_FALSE(document.look_at_disk());
-  std::string theirs = small;
-  theirs.replace(theirs.find("pattern"), 7, "load_map");
-  put(file, theirs);
-  CHECK(document.look_at_disk());
-  CHECK(document.snapshot().text == theirs);
-  document.undo();
-  CHECK(get(file) == small);
-
-  SUBCASE("changes of different members go together") {
-    fs::permissions(file, fs::perms::owner_read);
-    document.edit(request(R"({"op": "set", "node": "b", "key": "comment", "value": "mine"})"));
-    CHECK(get(file) == small);
-    const DocumentSnapshot kept = document.snapshot();
-    CHECK_FALSE(kept.saved);
-    CHECK(kept.save_error.find("write-protected") != std::string::npos);
-    fs::permissions(file, fs::perms::owner_all);
-    put(file, theirs);
-    CHECK(document.look_at_disk());
-    CHECK(document.snapshot().saved);
-    CHECK(document.snapshot().save_error.empty());
-    CHECK(get(file).find("load_map") != std::string::npos);
-    CHECK(get(file).find("\"mine\"") != std::string::npos);
-    CHECK(get(file).find("// first") != std::string::npos);
-  }
-  SUBCASE("of the same member waits for an answer") {
-    fs::permissions(file, fs::perms::owner_read);
-    document.edit(request(R"({"op": "set", "node": "a", "key": "type", "value": "load_material"})"));
-    fs::permissions(file, fs::perms::owner_all);
-    put(file, theirs);
-    CHECK(document.look_at_disk());
-    DocumentSnapshot now = document.snapshot();
-    CHECK(now.on_disk == OnDisk::changed);
-    CHECK(now.conflict.ends_with(R"(/type: here to "load_material", elsewhere to "load_map")"));
-    document.edit(request(add_crop));
-    CHECK(get(file) == theirs);
-    SUBCASE("mine") {
-      document.resolve(true);
-      CHECK(get(file) == document.snapshot().text);
-      CHECK(get(file).find("load_material") != std::string::npos);
-    }
-    SUBCASE("theirs, which can be undone") {
-      document.resolve(false);
-      CHECK(document.snapshot().text == theirs);
-      document.undo();
-      CHECK(get(file).find("load_material") != std::string::npos);
-    }
-    CHECK(document.snapshot().on_disk == OnDisk::same);
-  }
-  SUBCASE("a file that is gone is written again only if that is wanted") {
-    fs::remove(file);
-    CHECK(document.look_at_disk());
-    CHECK(document.snapshot().on_disk == OnDisk::gone);
-    document.edit(request(add_crop));
-    CHECK_FALSE(fs::exists(file));
-    CHECK_THROWS_AS(document.resolve(false), EditRefused);
-    document.resolve(true);
-    CHECK(get(file) == document.snapshot().text);
-  }
-}
-
-TEST_CASE("a disk that is full loses no edit") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "in" / "g.json";
-  fs::create_directories(file.parent_path());
-  put(file, small);
-  EditedDocument document(file);
-  // The folder is replaced by a file: nothing can be written there, whoever writes.
-  fs::rename(file.parent_path(), folder.path() / "aside");
-  put(folder.path() / "in", "");
-  document.edit(request(add_crop));
-  const DocumentSnapshot kept = document.snapshot();
-  CHECK(kept.text.find("\"crop\"") != std::string::npos);
-  CHECK_FALSE(kept.saved);
-  fs::remove(folder.path() / "in");
-  fs::rename(folder.path() / "aside", folder.path() / "in");
-  CHECK(document.look_at_disk());
-  CHECK(document.snapshot().saved);
-  CHECK(get(file) == kept.text);
-}
-
 TEST_CASE("a graph that does not exist begins empty and is created by the first edit") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "new.json";
@@ -249,60 +152,60 @@ TEST_CASE("a graph that does not exist begins empty and is created by the first 
   document.look_at_disk();
   CHECK_FALSE(fs::exists(file));
   document.edit(request(R"({"op": "add", "type": "pattern"})"));
-  CHECK(get(file) == "{\n  \"terrazzo\": 1,\n  \"nodes\": {\n    \"pattern\": {\"type\": \"pattern\"}\n  }\n}\n");
+  CHECK(read_text(file) == "{\n  \"terrazzo\": 1,\n  \"nodes\": {\n    \"pattern\": {\"type\": \"pattern\"}\n  }\n}\n");
 }
 
 TEST_CASE("positions are written beside the graph once a node is moved") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "g.json", sidecar = folder.path() / "g.layout.json";
-  put(file, small);
+  write_text(file, small);
   EditedDocument document(file);
   const ordered_json before = state_json(document.snapshot())["levels"][""]["nodes"];
   CHECK(before[1]["x"] > before[0]["x"]);
   CHECK_FALSE(fs::exists(sidecar));
   document.edit(request(R"({"op": "move", "positions": {"a": [-7, 300.4]}})"));
   CHECK(document.snapshot().undo == "move \"a\"");
-  CHECK(get(file) == small);
+  CHECK(read_text(file) == small);
   ordered_json after = state_json(document.snapshot())["levels"][""]["nodes"];
   CHECK(after[0]["x"] == -7);
   CHECK(after[0]["y"] == 300);
   CHECK(after[1]["x"] == before[1]["x"]);
   document.edit(request(R"({"op": "rename", "node": "a", "to": "z"}, {"op": "pin", "nodes": ["z"], "on": true},
                             {"op": "frame", "set": {"title": "all", "x": 1, "y": 2, "width": 3, "height": 4}})"));
-  CHECK(ordered_json::parse(get(sidecar)) == ordered_json::parse(R"({"levels": {"": {
+  CHECK(ordered_json::parse(read_text(sidecar)) == ordered_json::parse(R"({"levels": {"": {
     "nodes": {"b": [)" + before[1]["x"].dump() + ", " + before[1]["y"].dump() +
-                                                                 R"(], "z": {"at": [-7, 300], "pinned": true}},
+                                                                       R"(], "z": {"at": [-7, 300], "pinned": true}},
     "frames": {"f1": {"title": "all", "at": [1, 2], "size": [3, 4]}}}}})"));
   document.edit(request(R"({"op": "remove", "nodes": ["z"]})"));
-  CHECK(get(sidecar).find("\"z\"") == std::string::npos);
+  CHECK(read_text(sidecar).find("\"z\"") == std::string::npos);
   for (int i = 0; i < 3; i++) document.undo();
   CHECK_FALSE(fs::exists(sidecar));
-  CHECK(get(file) == small);
+  CHECK(read_text(file) == small);
 }
 
 TEST_CASE("what else is in a sidecar is kept, and a broken one only replaced by a move") {
   const TemporaryFolder folder;
   const fs::path sidecar = folder.path() / "g.layout.json";
-  put(folder.path() / "g.json", small);
+  write_text(folder.path() / "g.json", small);
   const std::string text =
       "{\n  // mine\n  \"zoom\": 3,\n  \"levels\": {\"\": {\"nodes\": {\"a\": [1, 2], \"gone\": "
       "[5, 6], \"b\": {\"at\": [3, 4], \"note\": 1}}}, \"other\": {\"x\": 1}}\n}\n";
-  put(sidecar, text);
+  write_text(sidecar, text);
   EditedDocument document(folder.path() / "g.json");
   document.edit(request(R"({"op": "move", "positions": {"b": [9, 9]}})"));
-  CHECK(get(sidecar).find("\"zoom\": 3") != std::string::npos);
-  CHECK(get(sidecar).find("// mine") != std::string::npos);
-  CHECK(get(sidecar).find("\"note\": 1") != std::string::npos);
-  CHECK(get(sidecar).find("\"gone\": [5, 6]") != std::string::npos);
-  put(sidecar, "{ broken");
+  CHECK(read_text(sidecar).find("\"zoom\": 3") != std::string::npos);
+  CHECK(read_text(sidecar).find("// mine") != std::string::npos);
+  CHECK(read_text(sidecar).find("\"note\": 1") != std::string::npos);
+  CHECK(read_text(sidecar).find("\"gone\": [5, 6]") != std::string::npos);
+  write_text(sidecar, "{ broken");
   document.look_at_disk();
   const ordered_json state = state_json(document.snapshot());
   CHECK(state["problems"].back()["severity"] == "note");
-  CHECK(get(sidecar) == "{ broken");
+  CHECK(read_text(sidecar) == "{ broken");
   document.edit(request(add_crop));
-  CHECK(get(sidecar) == "{ broken");
+  CHECK(read_text(sidecar) == "{ broken");
   document.edit(request(R"({"op": "move", "positions": {"b": [9, 9]}})"));
-  CHECK(get(sidecar).find("\"crop\": [") != std::string::npos);
+  CHECK(read_text(sidecar).find("\"crop\": [") != std::string::npos);
 }
 
 TEST_CASE("any edits parse, are undone to the byte and done again") {
@@ -317,7 +220,7 @@ TEST_CASE("any edits parse, are undone to the byte and done again") {
       for (const char c : text) other += c == '\n' ? "\r\n" : std::string(1, c);
       text = other;
     }
-    put(file, text);
+    write_text(file, text);
     EditedDocument document(file);
     std::vector<std::string> texts = {text};
     size_t applied = 0;
@@ -364,7 +267,7 @@ TEST_CASE("any edits parse, are undone to the byte and done again") {
       INFO(e.dump());
       REQUIRE(parsed.value);
       REQUIRE(parsed.problems.empty());
-      REQUIRE(get(file) == now.text);
+      REQUIRE(read_text(file) == now.text);
       texts.push_back(now.text);
       if (applied % 8 == 0) REQUIRE_FALSE(state_json(now).contains("broken"));
     }
@@ -375,9 +278,9 @@ TEST_CASE("any edits parse, are undone to the byte and done again") {
       const std::string now = document.snapshot().text;
       REQUIRE(std::ranges::find(texts, now) != texts.end());
     }
-    CHECK(get(file) == text);
+    CHECK(read_text(file) == text);
     while (document.snapshot().redo) document.redo();
-    CHECK(get(file) == last);
+    CHECK(read_text(file) == last);
     CHECK(document.snapshot().layout.text == layout);
     fs::remove(layout_path(file));
   }
