@@ -6,6 +6,25 @@ namespace terrazzo {
 
 FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Repeats& repeats,
                            ImagePtr mask, ElementsPtr elements) {
+  return made(size, std::move(images), wraps, repeats, std::move(mask), std::move(elements));
+}
+
+FeaturesPtr Features::with(const Repeats& repeats) const {
+  return with(repeats, elements_);
+}
+
+FeaturesPtr Features::with(ElementsPtr elements) const {
+  return with(repeats_, std::move(elements));
+}
+
+FeaturesPtr Features::with(const Repeats& repeats, ElementsPtr elements) const {
+  const std::shared_ptr<Features> out = made(size_, images_, wraps_, repeats, mask_, std::move(elements));
+  out->held_planes_ = held_planes_;
+  return out;
+}
+
+std::shared_ptr<Features> Features::made(Size size, std::vector<FeatureImage> images, bool wraps,
+                                         const Repeats& repeats, ImagePtr mask, ElementsPtr elements) {
   Hasher h;
   h.add("features").add(size.width).add(size.height).add(wraps).add(int64_t(images.size()));
   repeats.add_to(h);

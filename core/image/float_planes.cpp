@@ -7,6 +7,7 @@
 
 #include "core/numeric/box_filter.h"
 #include "core/numeric/gaussian.h"
+#include "core/numeric/weighted_row_sum.h"
 
 namespace terrazzo {
 
@@ -15,6 +16,14 @@ namespace {
 int mirrored(int v, int n) {
   const int m = wrap(v, 2 * n);
   return m < n ? m : 2 * n - 1 - m;
+}
+
+int row_beyond(const Planes& image, int y, Beyond beyond) {
+  return beyond == Beyond::mirrored ? mirrored(y, image.size.height) : image.row(y);
+}
+
+int column_beyond(const Planes& image, int x, Beyond beyond) {
+  return beyond == Beyond::mirrored ? mirrored(x, image.size.width) : image.column(x);
 }
 
 /// One output pixel along an axis: the input pixels that make it up.
@@ -54,37 +63,42 @@ Planes to_planes(const Image& image, const Rect& region, int channels) {
   return out;
 }
 
-Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& task) {
-  if (!(sigma > 0)) return image;
-  const int radius = int(4 * sigma + 0.5), c = image.channels;
-  const std::vector<float> weights = gaussian_kernel(sigma, radius);
-  const int width = image.size.width, height = image.size.height;
-  const size_t row_values = size_t(width) * c;
-  const auto column = [&](int x) { return beyond == Beyond::mirrored ? mirrored(x, width) : image.column(x); };
-  const auto row = [&](int y) { return beyond == Beyond::mirrored ? mirrored(y, height) : image.row(y); };
-  Planes columns = Planes::zeros(image.size, c), out = Planes::zeros(image.size, c, image.wraps);
+Planes filtered_down(const Planes& image, const std::vector<float>& kernel, Beyond beyond, const Task& task) {
+  const int radius = int(kernel.size()) / 2, height = image.size.height;
+  const size_t row_values = size_t(image.size.width) * image.channels;
+  Planes out = Planes::zeros(image.size, image.channels, image.wraps);
   tbb::parallel_for(0, height, [&](int y) {
     task.check();
-    float* to = columns.at(0, y);
-    for (int t = -radius; t <= radius; t++) {
-      const float* from = image.at(0, row(y + t));
-      const float w = weights[t + radius];
-      for (size_t i = 0; i < row_values; i++) to[i] += w * from[i];
+    if (y >= radius && y + radius < height) {
+      weighted_row_sum(out.at(0, y), int(row_values), image.at(0, y - radius), row_values, kernel.data(), 1,
+                       kernel.size());
+      return;
     }
+    for (int t = -radius; t <= radius; t++)
+      weighted_row_sum(out.at(0, y), int(row_values), image.at(0, row_beyond(image, y + t, beyond)), row_values,
+                       &kernel[size_t(t + radius)], 1, 1);
   });
-  tbb::parallel_for(0, height, [&](int y) {
+  return out;
+}
+
+Planes filtered_across(const Planes& image, const std::vector<float>& kernel, Beyond beyond, const Task& task) {
+  const int radius = int(kernel.size()) / 2, width = image.size.width, c = image.channels;
+  const size_t row_values = size_t(width) * c;
+  Planes out = Planes::zeros(image.size, c, image.wraps);
+  tbb::parallel_for(0, image.size.height, [&](int y) {
     task.check();
     std::vector<float> padded(row_values + 2 * size_t(radius) * c);
     for (int x = -radius; x < width + radius; x++)
-      std::copy_n(columns.at(column(x), y), c, &padded[size_t(x + radius) * c]);
-    float* to = out.at(0, y);
-    for (size_t t = 0; t < weights.size(); t++) {
-      const float* from = &padded[t * c];
-      const float w = weights[t];
-      for (size_t i = 0; i < row_values; i++) to[i] += w * from[i];
-    }
+      std::copy_n(image.at(column_beyond(image, x, beyond), y), c, &padded[size_t(x + radius) * c]);
+    weighted_row_sum(out.at(0, y), int(row_values), padded.data(), size_t(c), kernel.data(), 1, kernel.size());
   });
   return out;
+}
+
+Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& task) {
+  if (!(sigma > 0)) return image;
+  const std::vector<float> kernel = gaussian_kernel(sigma, int(4 * sigma + 0.5));
+  return filtered_across(filtered_down(image, kernel, beyond, task), kernel, beyond, task);
 }
 
 Planes box_blurred(Planes image, double sigma, const Task& task) {

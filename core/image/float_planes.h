@@ -37,6 +37,11 @@ inline Beyond around_or_mirrored(const Planes& image) {
   return image.wraps ? Beyond::as_it_wraps : Beyond::mirrored;
 }
 
+/// The sum of 2 r + 1 rows, from r rows above to r rows below, each times its factor in the kernel; the other with
+/// columns. Throws Cancelled.
+Planes filtered_down(const Planes& image, const std::vector<float>& kernel, Beyond beyond, const Task& task);
+Planes filtered_across(const Planes& image, const std::vector<float>& kernel, Beyond beyond, const Task& task);
+
 /// A Gaussian blur, truncated at four sigma (in pixels); sigma 0 returns the image itself. Takes time proportional to
 /// the area times sigma. Throws Cancelled.
 Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& task);

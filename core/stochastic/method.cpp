@@ -28,7 +28,7 @@ constexpr int scales = 3;
 
 /// The exemplar's leading component with a Gaussian histogram.
 Planes gaussian_component(const Features& features, const Task& task) {
-  Planes planes = weighted_planes(features, task);
+  Planes planes = *weighted_planes(features, task);
   while (std::min(planes.size.width, planes.size.height) >= largest_side) planes = halved(planes);
   Planes out{planes.size, 1, false, leading_component(planes, task)};
   const ImagePtr image = Image::from_floats({.size = out.size}, out.values);

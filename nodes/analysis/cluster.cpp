@@ -35,12 +35,12 @@ Planes planes_of(const NodeContext& node) {
   std::vector<ImagePtr> images;
   for (const ImagePtr& image : node.list<Image>("images")) images.push_back(analysis_image(image));
   const Size size = features ? features->size() : images.front()->size();
-  if (images.empty()) return weighted_planes(*features, node.task());
+  if (images.empty()) return *weighted_planes(*features, node.task());
   std::vector<FeatureImage> channels;
   for (const ImagePtr& image : images) channels.push_back({image, std::vector<double>(size_t(image->channels()), 1.0)});
   const bool wraps = features && features->wraps();
-  const Planes of_images = weighted_planes(*Features::make(size, std::move(channels), wraps), node.task());
-  return features ? joined(weighted_planes(*features, node.task()), of_images) : of_images;
+  const Planes of_images = *weighted_planes(*Features::make(size, std::move(channels), wraps), node.task());
+  return features ? joined(*weighted_planes(*features, node.task()), of_images) : of_images;
 }
 
 OutputForecasts infer_cluster(const Params&, const InputForecasts& inputs) {

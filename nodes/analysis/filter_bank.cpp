@@ -29,8 +29,8 @@ void compute_filter_bank(NodeContext& node) {
   std::vector<double> first_only(size_t(grey->channels()), 0.0);
   first_only.front() = 1;
   const FeaturesPtr features = Features::make(grey->size(), {{grey, first_only}}, wraps);
-  const Planes planes = weighted_planes(*features, node.task());
-  FilterResponses responses = mr8_responses(planes, node.number("scale"), node.task());
+  FilterResponses responses =
+      mr8_responses(*weighted_planes(*features, node.task()), node.number("scale"), node.task());
   ImageInfo info{.size = grey->size(), .channels = 3, .semantic = Semantic::guidance};
   node.output("edges", Image::from_floats(info, std::move(responses.edges)));
   node.output("bars", Image::from_floats(info, std::move(responses.bars)));

@@ -8,6 +8,7 @@
 #include "core/analysis/repeats/part_lattices.h"
 #include "core/analysis/repeats/streaks.h"
 #include "core/analysis/repeats/uneven_borders.h"
+#include "core/analysis/space/planes.h"
 #include "core/node/node.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis/analysis_memory.h"
@@ -115,6 +116,9 @@ void compute_regularity(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
   const double least = node.number("least_certainty");
+  // Lattice, streaks and borders are looked for in the same planes.
+  std::shared_ptr<const Planes> planes;
+  if (node.text("mode") == "auto" || node.text("streaks") == "auto") planes = weighted_planes(*features, node.task());
   Repeats repeats;
   bool too_few = false;
   int courses = 0;

@@ -183,18 +183,25 @@ std::vector<uint16_t> at_size(const BestPartition& found, const std::vector<uint
   return {regions.at.begin(), regions.at.end()};
 }
 
+/// What varies most in the exemplar, at a size that is quick to look at.
+Planes picture_of(const Features& features, const Task& task) {
+  const std::shared_ptr<const Planes> exemplar = weighted_planes(features, task);
+  Planes smaller;
+  const Planes* picture = exemplar.get();
+  for (; std::max(picture->size.width, picture->size.height) > find_elements_tuning->most_side; picture = &smaller)
+    smaller = halved(*picture);
+  return leading_planes(*picture, find_elements_tuning->components, task);
+}
+
 }  // namespace
 
 ElementsPtr find_elements(const Features& features, const Task& task) {
-  const Planes exemplar = weighted_planes(features, task);
-  Planes picture = exemplar;
-  while (std::max(picture.size.width, picture.size.height) > find_elements_tuning->most_side) picture = halved(picture);
-  const BestPartition found = best_partition(leading_planes(picture, find_elements_tuning->components, task), task);
+  const BestPartition found = best_partition(picture_of(features, task), task);
   if (found.quality <= 0) return nullptr;
   auto out = std::make_shared<Elements>();
-  out->size = exemplar.size;
-  const std::vector<uint8_t> relief = relief_at_size(found, exemplar.size, exemplar.wraps);
-  out->at = at_size(found, relief, exemplar.size, exemplar.wraps);
+  out->size = features.size();
+  const std::vector<uint8_t> relief = relief_at_size(found, features.size(), features.wraps());
+  out->at = at_size(found, relief, features.size(), features.wraps());
   out->count = found.partition.regions.count;
   out->certainty = std::clamp((found.partition.confidence() - find_elements_tuning->unsure) /
                                   (find_elements_tuning->sure - find_elements_tuning->unsure),

@@ -19,8 +19,14 @@ Rect allowed_within(const std::vector<uint8_t>& allowed, Size exemplar, const Re
   return {part.x + inside.x, part.y + inside.y, inside.width, inside.height};
 }
 
-void halve(ExemplarView& view) {
-  view.planes = halved(view.planes);
+bool is_large(const Planes& planes) {
+  const auto [least, most] = std::minmax(planes.size.width, planes.size.height);
+  return least >= smallest_side && most > most_side;
+}
+
+/// `planes`: the view's before.
+void halve(ExemplarView& view, const Planes& planes) {
+  view.planes = halved(planes);
   if (!view.counts.values.empty()) view.counts = halved(view.counts);
   view.scale *= 2;
 }
@@ -38,8 +44,11 @@ ExemplarView view_of(const Planes& exemplar, const std::vector<uint8_t>& allowed
     view.counts = cropped({exemplar.size, 1, exemplar.wraps, {allowed.begin(), allowed.end()}}, view.seen);
     if (std::ranges::all_of(view.counts.values, [](float v) { return v == 1; })) view.counts = {};
   }
-  view.planes = cropped(exemplar, view.seen);
-  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > most_side) halve(view);
+  if (view.seen == whole(exemplar.size) && is_large(exemplar))
+    halve(view, exemplar);
+  else
+    view.planes = cropped(exemplar, view.seen);
+  while (is_large(view.planes)) halve(view, view.planes);
   return view;
 }
 
@@ -52,7 +61,7 @@ std::vector<ExemplarView> views_at_one_scale(const Planes& exemplar, const std::
     scale = std::max(scale, views.back().scale);
   }
   for (ExemplarView& view : views)
-    while (!view.empty() && view.scale < scale) halve(view);
+    while (!view.empty() && view.scale < scale) halve(view, view.planes);
   return views;
 }
 

@@ -161,7 +161,8 @@ std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task
 
 BroughtTogether find_part_lattices(const Features& features, const std::vector<Rect>& places,
                                    const LatticeFinder& finder, bool alike, const Task& task) {
-  const Planes planes = weighted_planes(features, task);
+  const std::shared_ptr<const Planes> held = weighted_planes(features, task);
+  const Planes& planes = *held;
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   const auto brought = [&](std::vector<ExemplarView> views, const auto& lattice) {
     std::vector<ExemplarPart> parts;

@@ -232,7 +232,7 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
 bool may_have_lattice(const Features& features, double least_certainty, const Task& task) {
   if (std::min(features.size().width, features.size().height) < quick_side || !allowed_pixels(features).empty())
     return true;
-  Planes seen = halved(weighted_planes(features, task));
+  Planes seen = halved(*weighted_planes(features, task));
   while (std::max(seen.size.width, seen.size.height) > most_quick_side) seen = halved(seen);
   for (const Planes& planes : {seen, outlines(seen, task)})
     if (highest_from(correlate(planes, {}, task), quick_lag) >= regularity_tuning->quick_share * least_certainty)
@@ -272,9 +272,9 @@ FoundLattice told_by_few_elements(const Features& features, const FoundLattice& 
 }
 
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
-  const Planes planes = weighted_planes(features, task);
+  const std::shared_ptr<const Planes> planes = weighted_planes(features, task);
   FoundLattice found =
-      find_lattice({view_of(planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
+      find_lattice({view_of(*planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
   if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
   if (found.lattice.rank > 1 || found.crossing.rank == 0 || features.mask()) return found;
   const ElementsPtr elements = surely_found_elements(features, task);

@@ -98,7 +98,7 @@ std::array<bool, 2> can_shorten(const Planes& planes, int run) {
 /// Of an exemplar whose courses, or columns, are `across`; (0, 0): it has none.
 Streaks find_streaks(const Features& features, Vector2d across, const Task& task) {
   const Size size = features.size();
-  const Planes planes = blurred(weighted_planes(features, task), noise, Beyond::as_it_wraps, task);
+  const Planes planes = blurred(*weighted_planes(features, task), noise, Beyond::as_it_wraps, task);
   const int least_levels = across == Vector2d{0, 0} ? 2 : 3;  // courses must be seen from afar
   const auto leaves_enough = [&](int side, int run) {
     return appearance_levels({side / run, side / run}) >= least_levels && (!features.wraps() || side % run == 0);

@@ -96,7 +96,7 @@ Evenness evenness(const Features& features, const Task& task) {
   Evenness out{whole(size)};
   const Lattice& lattice = features.repeats().lattice;
   if (features.wraps() || features.mask() || lattice.is_single_cell(size)) return out;
-  const Planes planes = view_of(weighted_planes(features, task), {}, whole(size)).planes;
+  const Planes planes = view_of(*weighted_planes(features, task), {}, whole(size)).planes;
   if (std::min(planes.size.width, planes.size.height) < border_strips * least_pixels) return out;
   const Planes parts = resampled(planes, {border_strips, border_strips});
   const Planes rows = resampled(parts, {1, border_strips}), columns = resampled(parts, {border_strips, 1});

@@ -62,13 +62,33 @@ float window_weight(int dx, int dy) {
   }
 }
 
-/// The weighted neighbourhood of a pixel: for each of 25 places, all channels, each number `stride` after the last.
-void neighbourhood(const Planes& planes, int x, int y, float* out, int stride = 1) {
+/// The weighted neighbourhood of a pixel: for each of 25 places, all channels.
+void neighbourhood(const Planes& planes, int x, int y, float* out) {
   for (int j = -radius; j <= radius; j++)
     for (int i = -radius; i <= radius; i++) {
       const float w = window_weight(i, j);
       const float* v = planes.at(planes.column(x + i), planes.row(y + j));
-      for (int c = 0; c < planes.channels; c++, out += stride) *out = w * v[c];
+      for (int c = 0; c < planes.channels; c++) *out++ = w * v[c];
+    }
+}
+
+/// Those of `count` pixels side by side: the first number of each, then the second of each... `rows` is scratch space.
+void neighbourhoods(const Planes& planes, int left, int y, int count, std::vector<float>& rows, float* out) {
+  const int n = planes.channels, breadth = count + 2 * radius;
+  // The neighbourhoods overlap: each channel's rows are brought together once.
+  rows.resize(size_t(side) * n * breadth);
+  for (int j = 0; j < side; j++)
+    for (int p = 0; p < breadth; p++) {
+      const float* v = planes.at(planes.column(left + p - radius), planes.row(y + j - radius));
+      for (int c = 0; c < n; c++) rows[size_t(j * n + c) * breadth + p] = v[c];
+    }
+  for (int j = 0; j < side; j++)
+    for (int i = 0; i < side; i++) {
+      const float w = window_weight(i - radius, j - radius);
+      for (int c = 0; c < n; c++, out += count) {
+        const float* row = &rows[size_t(j * n + c) * breadth + i];
+        for (int p = 0; p < count; p++) out[p] = w * row[p];
+      }
     }
 }
 
@@ -107,10 +127,10 @@ std::vector<float> projection(const Planes& planes, const AppearanceLevel& level
   std::vector<float> projected(size_t(planes.size.area()) * appearance_dimensions);
   constexpr int strip = 32;  // pixels, side by side in memory
   tbb::parallel_for(0, planes.size.height, [&](int y) {
-    std::vector<float> v(size_t(n) * strip);
+    std::vector<float> v(size_t(n) * strip), rows;
     for (int left = 0; left < planes.size.width; left += strip) {
       const int count = std::min(strip, planes.size.width - left);
-      for (int p = 0; p < count; p++) neighbourhood(planes, left + p, y, &v[p], count);
+      neighbourhoods(planes, left, y, count, rows, v.data());
       float* out = &projected[(size_t(y) * planes.size.width + left) * appearance_dimensions];
       for (int d = 0; d < level.dimensions; d++) {
         std::array<float, strip> sums{};
@@ -199,8 +219,11 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
   Planes planes = unmasked_planes(features, task);
   auto fingerprint = std::make_shared<Fingerprint>(fingerprint_of(features, planes));
   fill_masked(planes, features);
-  planes = shortened(planes, repeats.streaks);
-  Planes guides = shortened(guidance_planes(features, guidance, task), repeats.streaks);
+  Planes guides = guidance_planes(features, guidance, task);
+  if (repeats.streaks.any()) {
+    planes = shortened(planes, repeats.streaks);
+    guides = shortened(guides, repeats.streaks);
+  }
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   std::vector<AppearanceLevel> levels;
   for (int l = 0; l < count; l++) {

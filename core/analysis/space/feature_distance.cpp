@@ -1,5 +1,6 @@
 #include "core/analysis/space/feature_distance.h"
 
+#include <array>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -48,26 +49,11 @@ std::vector<float> binomial_kernel(double deviation) {
   return {k.begin(), k.end()};
 }
 
-Planes smoothed(Planes in, double deviation) {
+Planes smoothed(Planes in, double deviation, const Task& task) {
   const std::vector<float> kernel = binomial_kernel(deviation);
-  const int reach = int(kernel.size()) / 2, n = in.channels;
-  if (reach == 0) return in;
-  Planes across = in;
-  const auto pass = [&](const Planes& from, Planes& to, bool horizontal) {
-    tbb::parallel_for(0, in.size.height, [&](int y) {
-      for (int x = 0; x < in.size.width; x++) {
-        float* o = to.at(x, y);
-        std::fill(o, o + n, 0.0f);
-        for (int i = -reach; i <= reach; i++) {
-          const float* v = horizontal ? from.at(from.column(x + i), y) : from.at(x, from.row(y + i));
-          for (int c = 0; c < n; c++) o[c] += kernel[i + reach] * v[c];
-        }
-      }
-    });
-  };
-  pass(in, across, true);
-  pass(across, in, false);
-  return in;
+  if (kernel.size() == 1) return in;
+  in = filtered_across(in, kernel, Beyond::as_it_wraps, task);
+  return filtered_down(in, kernel, Beyond::as_it_wraps, task);
 }
 
 /// Scharr's operator on one channel.
@@ -80,15 +66,28 @@ Gradient gradient_at(const Planes& p, int x, int y, int channel) {
 
 /// Gradient magnitude over all channels.
 std::vector<float> gradient_magnitude(const Planes& p) {
+  const auto n = size_t(p.channels), row_values = size_t(p.size.width) * n;
   std::vector<float> out(size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
+    // Rows with a pixel more at either end, so that all of them can be worked on side by side.
+    std::array<std::vector<float>, 3> rows;
+    for (int j = 0; j < 3; j++) {
+      rows[size_t(j)].resize(row_values + 2 * n);
+      for (int x = -1; x <= p.size.width; x++)
+        std::copy_n(p.at(p.column(x), p.row(y + j - 1)), n, &rows[size_t(j)][size_t(x + 1) * n]);
+    }
+    const float *up = rows[0].data() + n, *at = rows[1].data() + n, *down = rows[2].data() + n;
+    std::vector<float> squares(row_values);
+    for (size_t i = 0; i < row_values; i++) {
+      const float *left_up = up - n, *left = at - n, *left_down = down - n;
+      const Gradient g{3 * (up[i + n] - left_up[i]) + 10 * (at[i + n] - left[i]) + 3 * (down[i + n] - left_down[i]),
+                       3 * (left_down[i] - left_up[i]) + 10 * (down[i] - up[i]) + 3 * (down[i + n] - up[i + n])};
+      squares[i] = g.x * g.x + g.y * g.y;
+    }
     for (int x = 0; x < p.size.width; x++) {
       float sum = 0;
-      for (int c = 0; c < p.channels; c++) {
-        const Gradient g = gradient_at(p, x, y, c);
-        sum += g.x * g.x + g.y * g.y;
-      }
-      out[size_t(y) * p.size.width + x] = std::sqrt(sum) / 32;
+      for (size_t c = 0; c < n; c++) sum += squares[size_t(x) * n + c];
+      out[size_t(y) * size_t(p.size.width) + size_t(x)] = std::sqrt(sum) / 32;
     }
   });
   return out;
@@ -114,7 +113,9 @@ std::vector<float> leading_gradients(const Planes& p, const Task& task) {
 Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task) {
   const FeaturesPtr features =
       weighted_features(material, weights_of_chosen(material, options.maps), options.wraps, options.mask);
-  const Planes planes = smoothed(weighted_planes(*features, task), options.smoothing);
+  Planes weighted = unmasked_planes(*features, task);  // not shared: they are smoothed in place
+  fill_masked(weighted, *features);
+  const Planes planes = smoothed(std::move(weighted), options.smoothing, task);
   Edges edges;
   edges.strength = gradient_magnitude(planes);
   edges.gradients = leading_gradients(planes, task);

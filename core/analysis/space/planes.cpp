@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/error.h"
 #include "core/base/tuning.h"
 #include "core/numeric/distance_transform.h"
+#include "core/numeric/moments.h"
 #include "core/numeric/principal_components.h"
 
 namespace terrazzo {
@@ -26,34 +28,47 @@ const Tunable<PlanesTuning> planes_tuning(
                    "not measured: less is quantisation noise of an 8-bit map rather than structure", 0.000001},
               });
 
-/// Of the pixels that count; `allowed` empty: of all.
-Moments<> moments(const Image& image, const std::vector<uint8_t>& allowed) {
-  Moments<> out(image.channels());
-  for_each_strip(image, [&](const Rect& r, const float* v) {
-    const int64_t first = int64_t{r.y} * r.width;
-    for (int64_t i = 0; i < r.area(); i++)
-      if (allowed.empty() || allowed[first + i]) out.add(&v[i * image.channels()]);
+/// Copies an image's channels into the planes from channel `first` on.
+void copy_channels(const Image& image, const std::vector<int>& channels, Planes& planes, int first, const Task& task) {
+  constexpr int rows = 16;  // a megabyte or two
+  tbb::parallel_for(0, (image.height() + rows - 1) / rows, [&](int strip) {
+    const CurrentTask scope(task);
+    task.check();
+    const Rect r{0, strip * rows, image.width(), std::min(rows, image.height() - strip * rows)};
+    std::vector<float> values(size_t(r.area()) * image.channels());
+    image.read(r, values.data());
+    const float* v = values.data();
+    for (int y = r.y; y < r.bottom(); y++)
+      for (int x = 0; x < r.width; x++, v += image.channels()) {
+        float* out = planes.at(x, y) + first;
+        for (const int c : channels) *out++ = v[c];
+      }
   });
-  return out;
 }
 
-/// Writes an image's weighted channels into the planes from channel `first` on.
+/// Writes an image's weighted channels into the planes from channel `first` on. `allowed`: the pixels that count;
+/// empty: all.
 void add_image(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed,
-               Planes& planes, int first) {
-  const Moments<> m = moments(image, allowed);
-  const int channels = image.channels();
+               Planes& planes, int first, const Task& task) {
+  std::vector<int> channels;
+  for (int c = 0; c < image.channels(); c++)
+    if (weights[c] > 0) channels.push_back(c);
+  copy_channels(image, channels, planes, first, task);
+  std::vector<Moments<1>> moments(channels.size());
+  const auto area = size_t(planes.size.area());
+  for (size_t i = 0; i < area; i++)
+    if (allowed.empty() || allowed[i])
+      for (size_t k = 0; k < channels.size(); k++)
+        moments[k].add(double(planes.values[i * planes.channels + first + k]));
   double variance = 0;
-  for (int c = 0; c < channels; c++)
-    if (weights[c] > 0) variance += m.variance(c);
+  for (const Moments<1>& m : moments) variance += m.variance();
   const double unit = 1.0 / std::max(std::sqrt(variance), planes_tuning->least_deviation);
-  const VectorXd mean = m.mean_vector();
-  for_each_strip(image, [&](const Rect& r, const float* v) {
-    for (int y = 0; y < r.height; y++)
-      for (int x = 0; x < r.width; x++, v += channels) {
-        float* out = planes.at(x, r.y + y) + first;
-        for (int c = 0; c < channels; c++)
-          if (weights[c] > 0) *out++ = float((v[c] - mean[c]) * (weights[c] * unit));
-      }
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, area), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t k = 0; k < channels.size(); k++) {
+      const double mean = moments[k].mean(), factor = weights[channels[k]] * unit;
+      float* v = &planes.values[range.begin() * planes.channels + first + k];
+      for (size_t i = range.begin(); i < range.end(); i++, v += planes.channels) *v = float((*v - mean) * factor);
+    }
   });
 }
 
@@ -74,15 +89,23 @@ Planes unmasked_planes(const Features& features, const Task& task) {
   int first = 0;
   for (const FeatureImage& f : features.images()) {
     task.check();
-    add_image(*f.image, f.weights, allowed, planes, first);
+    add_image(*f.image, f.weights, allowed, planes, first, task);
     for (const double w : f.weights) first += w > 0;
   }
   return planes;
 }
 
-Planes weighted_planes(const Features& features, const Task& task) {
-  Planes planes = unmasked_planes(features, task);
-  fill_masked(planes, features);
+std::shared_ptr<const Planes> weighted_planes(const Features& features, const Task& task) {
+  HeldPlanes& held = features.held_planes();
+  // Not locked while they are made: the thread may meanwhile take up another task that asks for them.
+  {
+    const std::lock_guard lock(held.mutex);
+    if (auto planes = held.planes.lock()) return planes;
+  }
+  auto planes = std::make_shared<Planes>(unmasked_planes(features, task));
+  fill_masked(*planes, features);
+  const std::lock_guard lock(held.mutex);
+  held.planes = planes;
   return planes;
 }
 
@@ -104,7 +127,7 @@ Planes guidance_planes(const Features& features, const std::vector<ImagePtr>& gu
   int first = 0;
   for (const ImagePtr& g : guidance) {
     task.check();
-    add_image(*g, std::vector<double>(g->channels(), 1.0), allowed, planes, first);
+    add_image(*g, std::vector<double>(g->channels(), 1.0), allowed, planes, first, task);
     first += g->channels();
   }
   fill_masked(planes, features);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/base/task.h"
@@ -18,8 +19,8 @@ Planes unmasked_planes(const Features& features, const Task& task);
 /// Gives masked-out pixels what the nearest allowed pixel has, so that they do not show through at coarse levels.
 void fill_masked(Planes& planes, const Features& features);
 
-/// Both.
-Planes weighted_planes(const Features& features, const Task& task);
+/// Both. Shared with those who have asked for the same before and still hold them. Thread-safe.
+std::shared_ptr<const Planes> weighted_planes(const Features& features, const Task& task);
 
 /// The same for guidance images (signed feature distances, control maps), which share one weight. Throws Error about
 /// "guidance" unless they have the features' size.

@@ -24,7 +24,7 @@ PiecewiseLinear equalizing_curve(const Distribution& d, bool inverted) {
 }  // namespace
 
 ImagePtr progression_of(const Features& features, double deviation, bool inverted, const Task& task) {
-  const Planes planes = box_blurred(weighted_planes(features, task), deviation, task);
+  const Planes planes = box_blurred(*weighted_planes(features, task), deviation, task);
   const ImageInfo info{.size = features.size(), .channels = 1, .semantic = Semantic::guidance, .depth = Depth::u16};
   std::vector<float> values = leading_component(planes, task);
   const PiecewiseLinear curve =

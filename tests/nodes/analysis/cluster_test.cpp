@@ -46,7 +46,7 @@ TEST_CASE("cluster recovers three regions under noise exactly, dark to light, wh
 
 TEST_CASE("each pixel belongs to the nearest centre, and centres are the means of their pixels") {
   const ImagePtr image = noise_image({40, 30}, 3);
-  const Planes planes = weighted_planes(*plain_features(image), {});
+  const Planes planes = *weighted_planes(*plain_features(image), {});
   const Clusters c = find_clusters(planes, {.count = 7, .iterations = 1000}, {});
   REQUIRE(c.count == 7);
   std::vector<double> sums(21, 0.0), counts(7, 0.0);

@@ -74,7 +74,7 @@ TEST_CASE("what a mask forbids leaves no trace in the analysis") {
       Semantic::base_color, "srgb_texture");
   const auto planes = [](const ImagePtr& image) {
     const FeaturesPtr plain = plain_features(image);
-    return weighted_planes(*Features::make(plain->size(), plain->images(), false, {}, left_half({32, 32})), Task());
+    return *weighted_planes(*Features::make(plain->size(), plain->images(), false, {}, left_half({32, 32})), Task());
   };
   CHECK(planes(clean).values == planes(dirty).values);
 }

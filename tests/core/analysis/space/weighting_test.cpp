@@ -49,11 +49,21 @@ TEST_CASE("wrong weights are refused with what would do") {
 
 TEST_CASE("a weight of 1 gives every map the same variance, whatever its range") {
   const FeaturesPtr f = weighted_features(*wall_material(), {{"base_color", {1}}, {"height", {1}}}, false);
-  const Planes planes = weighted_planes(*f, Task());
+  const Planes planes = *weighted_planes(*f, Task());
   double color = 0, height = 0;
   for (size_t i = 0; i < planes.values.size(); i++)
     (i % 4 == 3 ? height : color) += double(planes.values[i]) * planes.values[i];
   CHECK(color == doctest::Approx(height).epsilon(1e-3));
+}
+
+TEST_CASE("weighted channels are made once for all who hold them, whatever repeats are known") {
+  const FeaturesPtr f = weighted_features(*wall_material(), {{"base_color", {1}}, {"height", {1}}}, false);
+  const auto first = weighted_planes(*f, Task());
+  CHECK(weighted_planes(*f, Task()) == first);
+  CHECK(weighted_planes(*f->with(Repeats(Lattice{1, {0, 8}, {}, 1})), Task()) == first);
+  const ImagePtr half = Image::from_floats({.size = f->size(), .channels = 1, .semantic = Semantic::mask},
+                                           std::vector<float>(size_t(f->size().area()), 1.0f));
+  CHECK(weighted_planes(*f->with(half), Task()) != first);
 }
 
 TEST_CASE("OpenGL and DirectX normals of one surface are the same features") {
