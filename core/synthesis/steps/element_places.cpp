@@ -53,12 +53,14 @@ PlacedElement ElementPlaces::element_at(int column, int row) const {
 
 std::vector<std::vector<ShownElement>> ElementPlaces::shown() const {
   std::map<Vote, Count> votes;
+  auto counted = votes.end();  // mostly that of the block before
   for (int row = 0; row < field_.size.height; row++)
     for (int column = 0; column < field_.size.width; column++) {
       const PlacedElement p = element_at(column, row);
-      Count& count = votes[{p.element, p.shift_x, p.shift_y}];
-      count.blocks++;
-      count.kept += level_.is_fixed(column, row);
+      const Vote vote{p.element, p.shift_x, p.shift_y};
+      if (counted == votes.end() || counted->first != vote) counted = votes.try_emplace(vote).first;
+      counted->second.blocks++;
+      counted->second.kept += level_.is_fixed(column, row);
     }
   std::vector<std::pair<Vote, Count>> by_size(votes.begin(), votes.end());
   std::ranges::stable_sort(by_size, [](const auto& a, const auto& b) { return a.second.blocks > b.second.blocks; });
