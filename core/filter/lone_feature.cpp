@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace terrazzo {
 
@@ -18,22 +19,55 @@ constexpr int reach = 2;           // of a place's surroundings, in cells
 constexpr int apart = 6;           // what is not farther off counts as the same thing
 constexpr int per_cell = 2 * LoneFeatureSearch::channels;
 
-/// Sums over surroundings, around the borders.
-void sum_surroundings(const std::vector<int64_t>& values, Size cells, std::vector<int64_t>& across,
-                      std::vector<int64_t>& out) {
-  for (int y = 0; y < cells.height; y++)
-    for (int x = 0; x < cells.width; x++) {
-      int64_t sum = 0;
-      for (int d = -reach; d <= reach; d++) sum += values[size_t(y * cells.width + wrap(x + d, cells.width))];
-      across[size_t(y * cells.width + x)] = sum;
+/// How much each cell differs from the one at some distance from it, summed over surroundings, all around the borders.
+/// Whole numbers: of at most 1.6e8.
+class Differences {
+ public:
+  Differences(const std::vector<int32_t>& features, Size cells)
+      : cells_(cells), twice_(size_t(per_cell)), single_(area()), across_(area()), around_(area()) {
+    // Everything twice each way, one number after the other: no index has to wrap.
+    const int w = cells.width, h = cells.height;
+    for (int i = 0; i < per_cell; i++)
+      for (int y = 0; y < 2 * h; y++)
+        for (int x = 0; x < 2 * w; x++)
+          twice_[size_t(i)].push_back(features[size_t(((y % h) * w + x % w) * per_cell + i)]);
+  }
+
+  const std::vector<int32_t>& at(int dx, int dy) {
+    const int w = cells_.width, h = cells_.height;
+    std::ranges::fill(single_, 0);
+    for (const std::vector<int32_t>& values : twice_)
+      for (int y = 0; y < h; y++) {
+        const int32_t *a = &values[size_t(y * 2 * w)], *b = &values[size_t((y + dy) * 2 * w + dx)];
+        int32_t* out = &single_[size_t(y * w)];
+        for (int x = 0; x < w; x++) out[x] += (a[x] - b[x]) * (a[x] - b[x]);
+      }
+    std::vector<int32_t> row(size_t(w + 2 * reach));
+    for (int y = 0; y < h; y++) {
+      for (int x = 0; x < w + 2 * reach; x++) row[size_t(x)] = single_[size_t(y * w + wrap(x - reach, w))];
+      sum_of(&across_[size_t(y * w)], w, [&](int d) { return &row[size_t(reach + d)]; });
     }
-  for (int y = 0; y < cells.height; y++)
-    for (int x = 0; x < cells.width; x++) {
-      int64_t sum = 0;
-      for (int d = -reach; d <= reach; d++) sum += across[size_t(wrap(y + d, cells.height) * cells.width + x)];
-      out[size_t(y * cells.width + x)] = sum;
+    for (int y = 0; y < h; y++)
+      sum_of(&around_[size_t(y * w)], w, [&](int d) { return &across_[size_t(wrap(y + d, h) * w)]; });
+    return around_;
+  }
+
+ private:
+  size_t area() const { return size_t(cells_.area()); }
+
+  template <class F>
+  static void sum_of(int32_t* out, int length, const F& line) {
+    std::fill_n(out, length, 0);
+    for (int d = -reach; d <= reach; d++) {
+      const int32_t* v = line(d);
+      for (int i = 0; i < length; i++) out[i] += v[i];
     }
-}
+  }
+
+  Size cells_;
+  std::vector<std::vector<int32_t>> twice_;
+  std::vector<int32_t> single_, across_, around_;
+};
 
 }  // namespace
 
@@ -76,25 +110,25 @@ std::vector<int32_t> LoneFeatureSearch::features() const {
 LoneFeature LoneFeatureSearch::find() const {
   LoneFeature out;
   if (sums_.empty()) return out;
-  const std::vector<int32_t> all = features();
-  std::vector<int64_t> difference(sums_.size()), across(sums_.size()), around(sums_.size());
+  Differences differences(features(), cells_);
   std::vector<int64_t> nearest(sums_.size(), std::numeric_limits<int64_t>::max());
   double total = 0;
   for (int dy = 0; dy < cells_.height; dy++)
     for (int dx = 0; dx < cells_.width; dx++) {
+      // The way back is as long.
+      const int back_x = wrap(-dx, cells_.width), back_y = wrap(-dy, cells_.height);
+      if (std::pair(back_y, back_x) < std::pair(dy, dx)) continue;
+      const bool is_both = back_x == dx && back_y == dy;
+      const std::vector<int32_t>& around = differences.at(dx, dy);
+      for (const int32_t v : around) total += (is_both ? 1.0 : 2.0) * v;
+      if (std::max(std::min(dx, back_x), std::min(dy, back_y)) <= apart) continue;
       for (int y = 0; y < cells_.height; y++)
         for (int x = 0; x < cells_.width; x++) {
-          const int32_t* a = &all[size_t(y * cells_.width + x) * per_cell];
-          const int32_t* b =
-              &all[size_t(wrap(y + dy, cells_.height) * cells_.width + wrap(x + dx, cells_.width)) * per_cell];
-          int64_t sum = 0;
-          for (int i = 0; i < per_cell; i++) sum += int64_t{a[i] - b[i]} * (a[i] - b[i]);
-          difference[size_t(y * cells_.width + x)] = sum;
+          const int64_t v = around[size_t(y * cells_.width + x)];
+          for (const int at :
+               {y * cells_.width + x, wrap(y + dy, cells_.height) * cells_.width + wrap(x + dx, cells_.width)})
+            nearest[size_t(at)] = std::min(nearest[size_t(at)], v);
         }
-      sum_surroundings(difference, cells_, across, around);
-      for (const int64_t v : around) total += double(v);
-      if (std::max(std::min(dx, cells_.width - dx), std::min(dy, cells_.height - dy)) <= apart) continue;
-      for (size_t i = 0; i < nearest.size(); i++) nearest[i] = std::min(nearest[i], around[i]);
     }
   const double mean = total / (double(sums_.size()) * double(sums_.size()));
   if (mean <= 0) return out;
