@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include "runner/editor/document.h"
 #include "tests/run_node.h"
+#include "tests/runner/editor/small_document.h"
 #include "tests/texts.h"
 
 using namespace terrazzo;
@@ -11,16 +11,6 @@ using namespace terrazzo::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-nlohmann::ordered_json request(const std::string& edit) {
-  return {{"edits", nlohmann::ordered_json::parse("[" + edit + "]")}};
-}
-
-const std::string small =
-    "{\n  \"terrazzo\": 1,\n  \"nodes\": {\n    \"a\": {\"type\": \"pattern\"}, // first\n    \"b\": {\"type\": "
-    "\"weight\", \"material\": \"@a\"}\n  }\n}\n";
-
-const char* add_crop = R"({"op": "add", "type": "crop", "behind": {"node": "a"}})";
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "graphs/text/stock_graphs.h"
 #include "runner/editor/state.h"
 #include "tests/run_node.h"
+#include "tests/runner/editor/small_document.h"
 #include "tests/texts.h"
 
 using namespace terrazzo;
@@ -19,12 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ordered_json request(const std::string& edits, const std::string& label = "") {
-  ordered_json out = {{"edits", ordered_json::parse("[" + edits + "]")}};
-  if (!label.empty()) out["label"] = label;
-  return out;
-}
-
 std::string refusal_of(EditedDocument& document, const ordered_json& edits) {
   try {
     document.edit(edits);
@@ -33,12 +28,6 @@ std::string refusal_of(EditedDocument& document, const ordered_json& edits) {
   }
   return "";
 }
-
-const std::string small =
-    "{\n  \"terrazzo\": 1,\n  \"nodes\": {\n    \"a\": {\"type\": \"pattern\"}, // first\n    \"b\": {\"type\": "
-    "\"weight\", \"material\": \"@a\"}\n  }\n}\n";
-
-const char* add_crop = R"({"op": "add", "type": "crop", "behind": {"node": "a"}})";
 
 }  // namespace
 

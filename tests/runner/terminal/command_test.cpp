@@ -30,7 +30,7 @@ Command program_for(CommandTargets& to) {
   return program;
 }
 
-ParsedWords parsed(Command& program, Words words) {
+ParsedWords parsed(Command& program, const Words& words) {
   std::vector<const char*> argv = {"tool"};
   for (const std::string& w : words) argv.push_back(w.c_str());
   return parse_words(program, "1.0", int(argv.size()), argv.data());
