@@ -27,13 +27,9 @@ void visit_strips(const Image& image, tbb::enumerable_thread_specific<State>& st
                   const Visit& visit) {
   const int strips = (image.height() + strip_rows - 1) / strip_rows;
   std::atomic<int> done{0};
-  tbb::parallel_for(0, strips, [&](int strip) {
-    const CurrentTask scope(task);
+  for_each_strip_at_once(image, strip_rows, task, [&](const Rect& region, const float* pixels) {
     task.progress(from + 0.5 * done++ / strips);
-    const int y = strip * strip_rows;
-    const Rect region{0, y, image.width(), std::min(strip_rows, image.height() - y)};
-    const std::vector<float> pixels = image.read(region);
-    visit(states.local(), pixels.data(), region.area());
+    visit(states.local(), pixels, region.area());
   });
 }
 

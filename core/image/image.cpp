@@ -307,6 +307,19 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
   }
 }
 
+void for_each_strip_at_once(const Image& image, int rows, const Task& task,
+                            const std::function<void(const Rect&, const float*)>& visit) {
+  tbb::parallel_for(0, (image.height() + rows - 1) / rows, [&](int strip) {
+    const CurrentTask scope(task);
+    task.check();
+    const Rect r{0, strip * rows, image.width(), std::min(rows, image.height() - strip * rows)};
+    if (const float* all = image.in_memory())
+      visit(r, all + size_t(r.y) * image.width() * image.channels());
+    else
+      visit(r, image.read(r).data());
+  });
+}
+
 ImagePtr held(const ImagePtr& image, const Task& task) {
   return image->source()->held_bytes() > 0 ? image : materialized(image, task);
 }

@@ -186,6 +186,10 @@ std::vector<Rect> padded_parts(Size size, const Rect& region, Outside outside);
 /// holding the image. `visit(region, pixels)`; strips hold about a million floats.
 void for_each_strip(const Image& image, const std::function<void(const Rect&, const float*)>& visit);
 
+/// The same by all threads, in any order, several strips of so many rows at once. Throws Cancelled.
+void for_each_strip_at_once(const Image& image, int rows, const Task& task,
+                            const std::function<void(const Rect&, const float*)>& visit);
+
 /// An image whose pixels lie in memory in some form, so that reading a few of them is quick: `image` itself if they do
 /// already, else as floats.
 ImagePtr held(const ImagePtr& image, const Task& task = CurrentTask::task());

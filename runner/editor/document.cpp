@@ -107,7 +107,7 @@ class EditedDocument::Data {
   int64_t revision = 1;
   OnDisk on_disk = OnDisk::same;
   std::string save_error, conflict, theirs;
-  std::optional<std::string> unsettled;  ///< a text on disk that cannot be read, and may be half written
+  std::optional<std::string> unsettled_graph, unsettled_layout;  ///< on disk, unreadable, and maybe half written
 
   void open(const fs::path& path, const std::optional<std::string>& begin) {
     file = fs::absolute(path).lexically_normal();
@@ -154,8 +154,10 @@ class EditedDocument::Data {
   /// Takes over what has changed on disk. `again`: some time has passed since the last call with it.
   void follow_disk(bool again) {
     try {
-      follow_graph(content_of(file), again);
-      if (const std::optional<std::string> text = content_of(layout_file); text.value_or("") != disk.layout)
+      if (const auto text = content_of(file); !is_half_written(text, disk.graph, unsettled_graph, again))
+        follow_graph(text);
+      if (const auto text = content_of(layout_file);
+          !is_half_written(text, disk.layout, unsettled_layout, again) && text.value_or("") != disk.layout)
         follow_layout(text.value_or(""));
     } catch (const FileError& e) {
       set_error(e.what());
@@ -165,7 +167,7 @@ class EditedDocument::Data {
   void save() {
     if (read_only) return;
     follow_disk(false);
-    if (on_disk != OnDisk::same || unsettled) return;
+    if (on_disk != OnDisk::same || unsettled_graph || unsettled_layout) return;
     try {
       if (now.graph != disk.graph || !exists) {
         refuse_write_protected(file);
@@ -194,9 +196,7 @@ class EditedDocument::Data {
     conflict = why;
   }
 
-  void follow_graph(const std::optional<std::string>& text, bool again) {
-    if (text && is_half_written(*text, again)) return;
-    unsettled.reset();
+  void follow_graph(const std::optional<std::string>& text) {
     if (!text) {
       if (exists) set_on_disk(OnDisk::gone, "the file has been removed or renamed");
       return;
@@ -219,12 +219,12 @@ class EditedDocument::Data {
     set_on_disk(OnDisk::same, "");
   }
 
-  /// Another program may be writing the file: a text that cannot be read counts once it is the same at the next look.
-  bool is_half_written(const std::string& text, bool again) {
-    if (text == disk.graph || text == now.graph || parse_json(text).value) return false;
-    if (again && unsettled == text) return false;
-    unsettled = text;
-    return true;
+  /// Another program may be writing a file: a text that cannot be read counts once it is the same at the next look.
+  static bool is_half_written(const std::optional<std::string>& text, const std::string& known,
+                              std::optional<std::string>& unsettled, bool again) {
+    const bool waits = text && *text != known && !parse_json(*text).value && !(again && unsettled == text);
+    unsettled = waits ? text : std::nullopt;
+    return waits;
   }
 
   /// Of two changes of the same position that in memory counts.

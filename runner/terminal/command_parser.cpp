@@ -36,10 +36,11 @@ std::string in_plain_words(const std::string& message) {
   return fmt::format("{}: expected once, found {} times", message.substr(0, at), message.substr(at + too_often.size()));
 }
 
-using Related = std::vector<const CLI::Option*>;
+/// By their places among the command's options.
+using Related = std::map<int, const CLI::Option*>;
 
-/// What an option needs and excludes, each in the order of the command's options. CLI11 sorts them by address, so that
-/// its help and its messages differ from run to run.
+/// What an option needs and excludes. CLI11 sorts them by address, so that its help and its messages differ from run to
+/// run.
 struct Relations {
   Related needs{}, excludes{};
 };
@@ -55,7 +56,7 @@ class HelpFormatter : public CLI::Formatter {
     if (found == relations.end()) return text;
     const auto append = [&](const char* what, const Related& others) {
       if (!others.empty()) text += fmt::format(" {}:", what);
-      for (const CLI::Option* other : others) text += " " + other->get_name();
+      for (const auto& [place, other] : others) text += " " + other->get_name();
     };
     append("Needs", found->second.needs);
     append("Excludes", found->second.excludes);
@@ -99,22 +100,25 @@ class Parser {
   void add_to(CLI::App& app, Command& command) {
     commands_[&app] = &command;
     app.footer(command.footer);
-    std::map<std::string, CLI::Option*> by_name;
+    std::map<std::string, const CLI::Option*> by_name;
+    std::vector<const CLI::Option*> added;
     for (CommandOption& option : command.options)
       if (CLI::Option* made = add_option(app, option)) {
         options_[made] = &option;
         by_name[option.long_name()] = made;
+        added.push_back(made);
       }
-    const auto names = [](const std::vector<std::string>& all, const CommandOption& one) {
-      return std::ranges::find(all, one.long_name()) != all.end();
-    };
-    for (const CommandOption& option : command.options)
-      for (const CommandOption& other : command.options) {
-        const auto relations = [&]() -> Relations& { return formatter_->relations[by_name.at(option.long_name())]; };
-        if (names(option.needs, other)) relations().needs.push_back(by_name.at(other.long_name()));
-        if (names(option.excludes, other) || names(other.excludes, option))
-          relations().excludes.push_back(by_name.at(other.long_name()));
+    const auto place = [&](const CLI::Option* made) { return int(std::ranges::find(added, made) - added.begin()); };
+    for (const CommandOption& option : command.options) {
+      const auto own = [&] { return by_name.at(option.long_name()); };
+      for (const std::string& name : option.excludes) {
+        const CLI::Option* const other = by_name.at(name);
+        formatter_->relations[own()].excludes[place(other)] = other;
+        formatter_->relations[other].excludes[place(own())] = own();
       }
+      for (const std::string& name : option.needs)
+        formatter_->relations[own()].needs[place(by_name.at(name))] = by_name.at(name);
+    }
     for (Command& sub : command.commands) add_to(*app.add_subcommand(sub.name(), sub.help), sub);
     if (!command.commands.empty()) app.require_subcommand(1);
   }
@@ -156,9 +160,9 @@ class Parser {
       for (const CLI::Option* option : app->get_options()) {
         const auto found = formatter_->relations.find(option);
         if (option->count() == 0 || found == formatter_->relations.end()) continue;
-        for (const CLI::Option* other : found->second.needs)
+        for (const auto& [place, other] : found->second.needs)
           if (other->count() == 0) throw CLI::RequiresError(option->get_name(), other->get_name());
-        for (const CLI::Option* other : found->second.excludes)
+        for (const auto& [place, other] : found->second.excludes)
           if (other->count() > 0) throw CLI::ExcludesError(option->get_name(), other->get_name());
       }
   }

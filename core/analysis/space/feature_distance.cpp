@@ -56,37 +56,34 @@ Planes smoothed(Planes in, double deviation, const Task& task) {
   return filtered_down(in, kernel, Beyond::as_it_wraps, task);
 }
 
-/// Scharr's operator on one channel.
-Gradient gradient_at(const Planes& p, int x, int y, int channel) {
-  const int up = p.row(y - 1), down = p.row(y + 1), left = p.column(x - 1), right = p.column(x + 1);
-  const auto v = [&](int u, int w) { return p.at(u, w)[channel]; };
-  return {3 * (v(right, up) - v(left, up)) + 10 * (v(right, y) - v(left, y)) + 3 * (v(right, down) - v(left, down)),
-          3 * (v(left, down) - v(left, up)) + 10 * (v(x, down) - v(x, up)) + 3 * (v(right, down) - v(right, up))};
+/// The gradient at every value of a row, by Scharr's operator.
+std::vector<Gradient> row_gradients(const Planes& p, int y) {
+  const auto n = size_t(p.channels), row_values = size_t(p.size.width) * n;
+  // Rows with a pixel more at either end, so that all of them can be worked on side by side.
+  std::array<std::vector<float>, 3> rows;
+  for (int j = 0; j < 3; j++) {
+    rows[size_t(j)].resize(row_values + 2 * n);
+    for (int x = -1; x <= p.size.width; x++)
+      std::copy_n(p.at(p.column(x), p.row(y + j - 1)), n, &rows[size_t(j)][size_t(x + 1) * n]);
+  }
+  const float *up = rows[0].data() + n, *at = rows[1].data() + n, *down = rows[2].data() + n;
+  const float *left_up = up - n, *left = at - n, *left_down = down - n;
+  std::vector<Gradient> out(row_values);
+  for (size_t i = 0; i < row_values; i++)
+    out[i] = {3 * (up[i + n] - left_up[i]) + 10 * (at[i + n] - left[i]) + 3 * (down[i + n] - left_down[i]),
+              3 * (left_down[i] - left_up[i]) + 10 * (down[i] - up[i]) + 3 * (down[i + n] - up[i + n])};
+  return out;
 }
 
 /// Gradient magnitude over all channels.
 std::vector<float> gradient_magnitude(const Planes& p) {
-  const auto n = size_t(p.channels), row_values = size_t(p.size.width) * n;
   std::vector<float> out(size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
-    // Rows with a pixel more at either end, so that all of them can be worked on side by side.
-    std::array<std::vector<float>, 3> rows;
-    for (int j = 0; j < 3; j++) {
-      rows[size_t(j)].resize(row_values + 2 * n);
-      for (int x = -1; x <= p.size.width; x++)
-        std::copy_n(p.at(p.column(x), p.row(y + j - 1)), n, &rows[size_t(j)][size_t(x + 1) * n]);
-    }
-    const float *up = rows[0].data() + n, *at = rows[1].data() + n, *down = rows[2].data() + n;
-    std::vector<float> squares(row_values);
-    for (size_t i = 0; i < row_values; i++) {
-      const float *left_up = up - n, *left = at - n, *left_down = down - n;
-      const Gradient g{3 * (up[i + n] - left_up[i]) + 10 * (at[i + n] - left[i]) + 3 * (down[i + n] - left_down[i]),
-                       3 * (left_down[i] - left_up[i]) + 10 * (down[i] - up[i]) + 3 * (down[i + n] - up[i + n])};
-      squares[i] = g.x * g.x + g.y * g.y;
-    }
+    const std::vector<Gradient> row = row_gradients(p, y);
+    const Gradient* g = row.data();
     for (int x = 0; x < p.size.width; x++) {
       float sum = 0;
-      for (size_t c = 0; c < n; c++) sum += squares[size_t(x) * n + c];
+      for (int c = 0; c < p.channels; c++, g++) sum += g->x * g->x + g->y * g->y;
       out[size_t(y) * size_t(p.size.width) + size_t(x)] = std::sqrt(sum) / 32;
     }
   });
@@ -98,11 +95,10 @@ std::vector<float> leading_gradients(const Planes& p, const Task& task) {
   const Planes leading{p.size, 1, p.wraps, leading_component(p, task)};
   std::vector<float> out(2 * size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
-    for (int x = 0; x < p.size.width; x++) {
-      const Gradient g = gradient_at(leading, x, y, 0);
-      const size_t at = 2 * (size_t(y) * p.size.width + x);
-      out[at] = g.x / 32;
-      out[at + 1] = g.y / 32;
+    float* to = &out[2 * size_t(y) * size_t(p.size.width)];
+    for (const Gradient& g : row_gradients(leading, y)) {
+      *to++ = g.x / 32;
+      *to++ = g.y / 32;
     }
   });
   return out;

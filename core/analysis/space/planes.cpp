@@ -31,13 +31,7 @@ const Tunable<PlanesTuning> planes_tuning(
 /// Copies an image's channels into the planes from channel `first` on.
 void copy_channels(const Image& image, const std::vector<int>& channels, Planes& planes, int first, const Task& task) {
   constexpr int rows = 16;  // a megabyte or two
-  tbb::parallel_for(0, (image.height() + rows - 1) / rows, [&](int strip) {
-    const CurrentTask scope(task);
-    task.check();
-    const Rect r{0, strip * rows, image.width(), std::min(rows, image.height() - strip * rows)};
-    std::vector<float> values(size_t(r.area()) * image.channels());
-    image.read(r, values.data());
-    const float* v = values.data();
+  for_each_strip_at_once(image, rows, task, [&](const Rect& r, const float* v) {
     for (int y = r.y; y < r.bottom(); y++)
       for (int x = 0; x < r.width; x++, v += image.channels()) {
         float* out = planes.at(x, y) + first;

@@ -118,6 +118,24 @@ TEST_CASE("a file that is half written is neither taken over nor written over") 
   }
 }
 
+TEST_CASE("positions that are half written are neither taken over nor written over") {
+  const TemporaryFolder folder;
+  const fs::path sidecar = folder.path() / "g.layout.json";
+  write_text(folder.path() / "g.json", small);
+  EditedDocument document(folder.path() / "g.json");
+  document.edit(request(R"({"op": "move", "positions": {"a": [1, 2], "b": [3, 4]}})"));
+  const std::string placed = read_text(sidecar);
+  write_text(sidecar, placed.substr(0, placed.size() / 2));
+  CHECK_FALSE(document.look_at_disk());
+  document.edit(request(R"({"op": "move", "positions": {"b": [9, 9]}})"));
+  CHECK(read_text(sidecar) == placed.substr(0, placed.size() / 2));
+  write_text(sidecar, placed);
+  document.look_at_disk();
+  const nlohmann::json nodes = nlohmann::json::parse(read_text(sidecar))["levels"][""]["nodes"];
+  CHECK(nodes["a"] == nlohmann::json({1, 2}));
+  CHECK(nodes["b"] == nlohmann::json({9, 9}));
+}
+
 TEST_CASE("a disk that is full loses no edit") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "in" / "g.json";
