@@ -47,8 +47,22 @@ scenario('take one of a sweep', async () => {
   await page.getByRole('button', {name: 'Sweep', exact: true}).click();
   await page.getByLabel('parameter 1').selectOption('seed');
   await page.getByLabel('values of seed').fill('4..7');
-  await page.locator('.sheet form').getByRole('button', {name: 'Show'}).click();
+  const show = page.locator('.sheet form').getByRole('button', {name: 'Show'});
+  // Pictures may come, and even end, before the answer that names their cells.
+  await page.route('**/api/sweep', async (route) => {
+    const ended = page.evaluate(() => new Promise((done) => {
+      const events = new EventSource('/api/events?tab=other');
+      events.addEventListener('swept', () => { events.close(); done(); });
+      events.onopen = () => { window.hears = true; };
+    }));
+    await page.waitForFunction(() => window.hears);
+    const response = await route.fetch();
+    await ended;
+    await route.fulfill({response});
+  }, {times: 1});
+  await show.click();
   await page.waitForFunction(() => document.querySelectorAll('.cell img').length === 4);
+  await show.waitFor();
   await page.locator('.cell', {hasText: 'seed=6'}).click();
   await page.keyboard.press('ArrowRight');
   await e.accessible('a sheet');

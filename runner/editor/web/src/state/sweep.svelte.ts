@@ -30,6 +30,8 @@ class Sweep {
   failure = $state('');
   chosen = $state(-1);
   #id = '';
+  /// Asked for, and what was heard of it before the answer came: pictures that are cached are there sooner.
+  #asked: {id: string; news: Partial<Cell>[]; ended: boolean} | null = null;
 
   targets(): Target[] {
     const graph = session.document?.levels[''];
@@ -44,17 +46,21 @@ class Sweep {
 
   async start(sweeps: string[]) {
     if (!runs.looked) return;
-    this.#id = tab + Math.random().toString(36).slice(2);
+    const asked = this.#asked = {id: tab + Math.random().toString(36).slice(2), news: [] as Partial<Cell>[], ended: false};
     this.failure = '';
-    this.chosen = -1;
     try {
       const {cells} = await ask<{cells: Cell[]}>('sweep', {
-        id: this.#id, ...runs.looked, map: look.picture?.map ?? '', side: 320, sweeps});
-      this.cells = cells;
-      this.running = true;
+        id: asked.id, ...runs.looked, map: look.picture?.map ?? '', side: 320, sweeps});
+      if (this.#asked !== asked) return;
+      this.#id = asked.id;
+      this.cells = cells.map((cell, index) => ({...cell, ...asked.news[index]}));
+      this.chosen = -1;
+      this.running = !asked.ended;
     } catch (error) {
+      if (this.#asked !== asked) return;
       this.failure = (error as Error).message;
     }
+    this.#asked = null;
   }
   close() {
     this.open = false;
@@ -79,8 +85,13 @@ class Sweep {
 
   takePicture({id, cell, url, coarse}: CellEvent) { this.#change(id, cell, {url, coarse, failure: undefined}); }
   takeFailure({id, cell, message}: CellEvent) { this.#change(id, cell, {failure: message}); }
-  ended({id}: {id: string}) { if (id === this.#id) this.running = false; }
+  ended({id}: {id: string}) {
+    if (id === this.#asked?.id) this.#asked.ended = true;
+    if (id === this.#id) this.running = false;
+  }
   #change(id: string, cell: number, to: Partial<Cell>) {
+    const news = id === this.#asked?.id ? this.#asked.news : null;
+    if (news) news[cell] = {...news[cell], ...to};
     if (id === this.#id) this.cells = this.cells.map((c, index) => index === cell ? {...c, ...to} : c);
   }
 }
