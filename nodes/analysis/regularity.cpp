@@ -67,7 +67,13 @@ std::string described(const BroughtTogether& all, double least) {
 /// The lattice set by the parameters for a whole exemplar.
 FoundLattice lattice_of_all(NodeContext& node, const Features& features) {
   if (node.text("mode") == "manual") return given_lattice(node);
-  return find_lattice(features, node.number("least_certainty"), node.task());
+  FoundLattice found = find_lattice(features, node.number("least_certainty"), node.task());
+  // The foot of a wall is rather left out than repeated half-way up.
+  const bool by_one_line = found.lattice.rank == 1 && found.lattice == found.by_lines;
+  if (by_one_line && !features.wraps() && node.text("borders") == "auto" &&
+      evenness(features, node.task()).part != whole(features.size()))
+    found.lattice = {};
+  return found;
 }
 
 /// Adds the exemplar's streaks to its repeats.
@@ -184,13 +190,14 @@ std::vector<std::string> check_regularity(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 25;
+  t.version = 26;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =
       "Bricks, tiles and weaves repeat. The autocorrelation of all weighted channels gives the lattice vectors, or the "
       "period of courses or columns, and how certain they are; of an exemplar that tiles, also the lines between its "
-      "tiles and, of up to twelve, the joints around them. Synthesis then keeps every pixel at its phase in the "
+      "tiles and, of up to twelve, the joints around them. Where nothing repeats, a line from border to border makes "
+      "one course or column. Synthesis then keeps every pixel at its phase in the "
       "lattice's cell, so that courses stay straight and tiles keep their size over any distance. Exemplars without a "
       "lattice pass through unchanged. If several exemplars lie side by side (\"combine\", \"variants\"; give their "
       "labels) each gets its own lattice; where lattices are alike, joints continue from one to the other.";

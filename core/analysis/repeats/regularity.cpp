@@ -11,6 +11,7 @@
 #include "core/analysis/repeats/cell_search.h"
 #include "core/analysis/repeats/lag_correlation.h"
 #include "core/analysis/repeats/straight_lines.h"
+#include "core/analysis/repeats/through_lines.h"
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/tuning.h"
 #include "core/exemplar/element_courses.h"
@@ -161,6 +162,24 @@ double highest_from(const Correlation& r, int least_lag) {
   return highest;
 }
 
+/// The lattice of straight lines from border to border: across them an exemplar without bands is one course, or one
+/// column; where they cross, or go across bands, there are cells, unless the exemplar does not tile. `found` if there
+/// are none.
+Lattice with_through_lines(const Planes& planes, const Lattice& found, double least_certainty) {
+  const double rows = strongest_line(planes, true), columns = strongest_line(planes, false);
+  // Cut bricks and stones would come with their borders.
+  if (!planes.wraps && (found.rank > 0 || std::min(rows, columns) >= 1)) return found;
+  const auto step = [](double lines, double found_step, int all) {
+    return found_step > 0 || lines < 1 ? found_step : all;
+  };
+  const Vector2d right{step(columns, found.first.x(), planes.size.width), 0};
+  const Vector2d down{0, step(rows, found.first.y(), planes.size.height)};
+  const double certainty = std::max(found.certainty, 1 - 0.5 / std::max(rows, columns));
+  const bool cells = right.x() > 0 && down.y() > 0;
+  if ((cells ? 2 : right == down ? 0 : 1) <= found.rank || certainty < least_certainty) return found;
+  return cells ? Lattice{2, right, down, certainty} : Lattice{1, right + down, {}, certainty};
+}
+
 /// The lattice, or a multiple of it if its cells are turned or mirrored: the columns of a chevron floor.
 Lattice told_by_orientation(const Lattice& lattice, const std::vector<const ExemplarView*>& views, const Task& task) {
   std::vector<Correlation> all;
@@ -218,7 +237,10 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     if (const Lattice l =
             lattice_of_crossing_lines(largest.planes, edges.front(), !wraps && bands > 1 ? best.first.sum() : 0, task);
         l.rank > 0)
-      out.crossing = in_exemplar(l);
+      out.by_lines = in_exemplar(l);
+  if (best.rank < 2 && views.size() == 1 && out.by_lines.rank == 0)
+    if (const Lattice l = with_through_lines(largest.planes, best, least_certainty); l.rank > best.rank)
+      out.by_lines = in_exemplar(l);
   out.has_lines = best.rank > 0 || std::ranges::any_of(edges, has_lines);
   out.lattice = best;
   if (best.rank == 0) return out;
@@ -276,11 +298,11 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   FoundLattice found =
       find_lattice({view_of(*planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
   if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
-  if (found.lattice.rank > 1 || found.crossing.rank == 0 || features.mask()) return found;
+  if (found.lattice.rank > 1 || found.by_lines.rank == 0 || features.mask()) return found;
   const ElementsPtr elements = surely_found_elements(features, task);
   const int courses = elements ? count_courses(*elements, features) : 0;
   if (found.lattice.rank == 1 && courses > 0) return found;  // boards, say, whose joints are as long
-  found.lattice = found.crossing;
+  found.lattice = found.by_lines;
   if (found.lattice.is_single_cell(features.size())) found.courses = courses;
   return found;
 }

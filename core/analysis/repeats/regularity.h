@@ -15,7 +15,7 @@ struct FoundLattice {
   /// Joints cross, but the exemplar holds too few cells to find the lattice.
   bool too_few = false;
   bool has_lines = false;  ///< level or upright ones stand out, or bands
-  Lattice crossing{};      ///< of an exemplar without cells: that of long lines that cross, or rank 0
+  Lattice by_lines{};      ///< of an exemplar without cells: that of long lines, or rank 0
   int courses = 0;         ///< of an exemplar that is a single cell: those that element_courses() finds in it
 };
 

@@ -320,3 +320,15 @@ TEST_CASE("a dark border of an exemplar that does not tile is left out if asked 
     }
   }
 }
+
+TEST_CASE("a foot of a wall with a sharp edge is left out if asked for, and else makes a course") {
+  const FeaturesPtr features = features_of(
+      {128, 128}, [](int x, int y) { return float((y < 104 ? 0.4 : 0) + unit_double(random_bits(4, x, y))); });
+  for (const bool asked : {true, false}) {
+    CAPTURE(asked);
+    const Params params = asked ? Params{{"borders", "auto"}} : Params{};
+    const auto out = run_node("regularity", params, {{"features", {features}}}).get<Features>("features");
+    CHECK((out->mask() != nullptr) == asked);
+    CHECK(out->repeats().lattice.rank == (asked ? 0 : 1));
+  }
+}

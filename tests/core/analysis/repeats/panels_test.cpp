@@ -62,7 +62,7 @@ TEST_CASE("boards whose joints are long lines, too, keep their courses, which th
   spec.type = "planks";
   spec.size = {512, 512};
   const FoundLattice told = find_lattice(*weighted_features(*make_pattern(spec, Task()), {}, true), 0.08, Task());
-  CHECK(told.crossing.rank == 2);
+  CHECK(told.by_lines.rank == 2);
   CHECK(told.lattice.rank == 1);
   CHECK(told.lattice.first.y() == doctest::Approx(512 / 6.0).epsilon(0.01));
 }
