@@ -27,6 +27,7 @@ struct RegularityTuning {
   double told_twice = 2;
   double few_cells = 6.5;
   double least_alike_of_few = 0.6;
+  double smallest_ground = 128;
   double least_sure_stripes = 0.6;
   double least_turned = 0.6;
   double quick_share = 0.7;
@@ -53,6 +54,10 @@ const Tunable<RegularityTuning> regularity_tuning(
         {&RegularityTuning::least_alike_of_few, "least_alike_of_few", "correlation",
          "of so few cells. Higher: plates, tiles and bricks of few cells have no lattice; "
          "lower: grass and ground, of which 260 textures reach 0.58, are laid out in squares",
+         "regularity"},
+        {&RegularityTuning::smallest_ground, "smallest_ground", "pixels a side",
+         "of a part that repeats and in which nothing does. Higher: copies of ground are repeated; lower: motifs "
+         "without lines are torn",
          "regularity"},
         {&RegularityTuning::least_sure_stripes, "least_sure_stripes", "certainty",
          "of stripes aslant. Higher: fewer are found; lower: those that are only a part of "
@@ -269,6 +274,27 @@ ElementsPtr surely_found_elements(const Features& features, const Task& task) {
   return elements && elements->certainty >= sure_elements ? elements : nullptr;
 }
 
+/// Of a few cells, which may be copies that made the exemplar larger, or its motif: what repeats in one of them, or
+/// nothing if nothing does and no line stands out. Else `found`.
+FoundLattice told_by_one_cell(const Planes& planes, const FoundLattice& found, double least_certainty,
+                              const Task& task) {
+  const Lattice& l = found.lattice;
+  const Size size{int(std::lround(l.first.x())), int(std::lround(l.second.y()))};
+  const double cells = l.rank == 2 ? double(planes.size.area()) / l.cell_area() : 0;
+  if (cells < 2 || cells > regularity_tuning->few_cells ||
+      l != Lattice{2, {double(size.width), 0}, {0, double(size.height)}, l.certainty})
+    return found;
+  Planes cell = cropped(planes, whole(size));
+  cell.wraps = true;
+  const FoundLattice inside = find_lattice({view_of(cell, {}, whole(size))}, least_certainty, task);
+  const Lattice& i = inside.lattice;
+  const bool is_ground = i.rank == 0 && i.certainty < least_certainty && !inside.has_lines &&
+                         std::min(size.width, size.height) >= regularity_tuning->smallest_ground;
+  const bool are_courses = i.rank == 1 && !i.comes_once(size) && i.certainty >= regularity_tuning->least_alike_of_few;
+  const bool repeats = are_courses || (i.rank == 2 && !i.is_single_cell(size));
+  return is_ground || repeats ? inside : found;
+}
+
 int count_courses(const Elements& elements, const Features& features) {
   return int(element_courses(elements, features.wraps()).bands.size());
 }
@@ -297,6 +323,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   const std::shared_ptr<const Planes> planes = weighted_planes(features, task);
   FoundLattice found =
       find_lattice({view_of(*planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
+  if (planes->wraps && !features.mask()) found = told_by_one_cell(*planes, found, least_certainty, task);
   if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
   if (found.lattice.rank > 1 || found.by_lines.rank == 0 || features.mask()) return found;
   const ElementsPtr elements = surely_found_elements(features, task);

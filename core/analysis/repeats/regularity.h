@@ -24,7 +24,7 @@ struct FoundLattice {
 /// lattice points and the places between (as Liu, Collins & Tsin 2004), else the period of courses or columns, and
 /// their bond. Rank 0 below `least_certainty` (0..1). Throws Cancelled.
 FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_certainty, const Task& task);
-/// The same for the allowed area of an exemplar.
+/// The same for the allowed area of an exemplar, by what few elements, one of a few cells, and long lines tell as well.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 /// Of an exemplar that tiles and shows too few tiles or bricks for their correlation to tell: what their joints follow,
