@@ -281,9 +281,10 @@ FoundLattice told_by_one_cell(const Planes& planes, const FoundLattice& found, d
   const Lattice& l = found.lattice;
   const Size size{int(std::lround(l.first.x())), int(std::lround(l.second.y()))};
   const double cells = l.rank == 2 ? double(planes.size.area()) / l.cell_area() : 0;
-  if (cells < 2 || cells > regularity_tuning->few_cells ||
-      l != Lattice{2, {double(size.width), 0}, {0, double(size.height)}, l.certainty})
-    return found;
+  if (cells < 2 || cells > regularity_tuning->few_cells || size.width < 1 || size.height < 1) return found;
+  // Of an exemplar that does not tile the lattice is off by a part of a pixel, which finer ones would add up.
+  const Vector2d right(size.width, 0), down(0, size.height);
+  if (std::max((l.first - right).norm(), (l.second - down).norm()) > (planes.wraps ? 0 : 1)) return found;
   Planes cell = cropped(planes, whole(size));
   cell.wraps = true;
   const FoundLattice inside = find_lattice({view_of(cell, {}, whole(size))}, least_certainty, task);
@@ -291,7 +292,7 @@ FoundLattice told_by_one_cell(const Planes& planes, const FoundLattice& found, d
   const bool is_ground = i.rank == 0 && i.certainty < least_certainty && !inside.has_lines &&
                          std::min(size.width, size.height) >= regularity_tuning->smallest_ground;
   const bool are_courses = i.rank == 1 && !i.comes_once(size) && i.certainty >= regularity_tuning->least_alike_of_few;
-  const bool repeats = are_courses || (i.rank == 2 && !i.is_single_cell(size));
+  const bool repeats = planes.wraps && (are_courses || (i.rank == 2 && !i.is_single_cell(size)));
   return is_ground || repeats ? inside : found;
 }
 
@@ -323,7 +324,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   const std::shared_ptr<const Planes> planes = weighted_planes(features, task);
   FoundLattice found =
       find_lattice({view_of(*planes, allowed_pixels(features), whole(features.size()))}, least_certainty, task);
-  if (planes->wraps && !features.mask()) found = told_by_one_cell(*planes, found, least_certainty, task);
+  if (!features.mask()) found = told_by_one_cell(*planes, found, least_certainty, task);
   if (found.has_lines && features.wraps()) found = told_by_few_elements(features, found, task);
   if (found.lattice.rank > 1 || found.by_lines.rank == 0 || features.mask()) return found;
   const ElementsPtr elements = surely_found_elements(features, task);

@@ -28,9 +28,9 @@ double ground(int x, int y, int period) {
 }
 
 template <typename Drawn>
-Lattice found(Size size, const Drawn& drawn) {
+Lattice found(Size size, const Drawn& drawn, bool wraps = true) {
   const FeaturesPtr features =
-      plain_features(make_image(size, 1, [&](int x, int y, int) { return float(drawn(x, y)); }), true);
+      plain_features(make_image(size, 1, [&](int x, int y, int) { return float(drawn(x, y)); }), wraps);
   return find_lattice(*features, 0.08, Task()).lattice;
 }
 
@@ -42,6 +42,7 @@ TEST_CASE("copies of ground have no lattice, whether exact or with grain of thei
     const auto drawn = [grain](int x, int y) { return ground(x, y, 128) + grain * unit_double(random_bits(9, x, y)); };
     CHECK(found({256, 256}, drawn).rank == 0);
     CHECK(found({128, 256}, drawn).rank == 0);
+    CHECK(found({300, 280}, drawn, false).rank == 0);
   }
 }
 
