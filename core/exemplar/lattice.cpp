@@ -13,12 +13,9 @@ namespace {
 struct LatticeTuning {
   double smallest_resolved = 3;
   double smallest_cell = 0.5;
-  double most_shear = 1.0 / 256;
-  double least_shear = 1;
   double looseness = 1.0 / 12;
   double certainty_counts = 2.0 / 3;
   double most_slanted = 0.02;
-  double least_offset = 2;
   double most_bent = 0.15;
   double unseen_bend = 0.01;
   double unseen_bend_by_doubt = 0.025;
@@ -35,12 +32,6 @@ const Tunable<LatticeTuning> lattice_tuning(
          "finer cells have no say: finer levels bring pieces into place. Higher: cells are broken up at coarse levels; "
          "lower: so few places are in phase that the same rows come back all over a large surface",
          "regularity"},
-        {&LatticeTuning::most_shear, "most_shear", "share of a side",
-         "by which a surface may be sheared to wrap around. Higher: more sizes wrap; lower: pieces lie more level",
-         "not measured: it moves one end of a piece of 64 pixels by a quarter of a pixel"},
-        {&LatticeTuning::least_shear, "least_shear", "pixels",
-         "the same of small surfaces: rows of a woven or scanned exemplar are rarely exactly level",
-         "not measured: taken over from the code before constants were listed"},
         {&LatticeTuning::looseness, "looseness", "cells",
          "how far out of phase a position may be. Higher: less is copied verbatim; lower: less is broken",
          "regularity"},
@@ -51,24 +42,18 @@ const Tunable<LatticeTuning> lattice_tuning(
         {&LatticeTuning::most_slanted, "most_slanted", "share of their length",
          "by which level courses rise. Higher: walls that were not scanned level have courses; lower: patterns aslant "
          "have none",
-         "not measured: taken over from the code before constants were listed"},
-        {&LatticeTuning::least_offset, "least_offset", "pixels",
-         "by which one brick lies off another, if it does: less is what measuring leaves of nothing. Higher: fine "
-         "patterns are taken for level ones; lower: bricks seem longer than they are",
-         "not measured: taken over from the code before constants were listed", 0.5},
+         "What each rule decides"},
         {&LatticeTuning::most_bent, "most_bent", "share of a cell",
-         "higher: more sizes wrap; lower: cells hold together",
-         "not measured: taken over from the code before constants were listed"},
+         "higher: more sizes wrap; lower: cells hold together", "What each rule decides"},
         {&LatticeTuning::unseen_bend, "unseen_bend", "share of a cell",
          "that a certain lattice can be bent by without its being seen. Higher: sizes that do not quite fit are taken "
          "without a word; lower: they are changed, or warned of",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&LatticeTuning::unseen_bend_by_doubt, "unseen_bend_by_doubt", "share of a cell",
-         "the same, in addition, of one that is not certain at all, whose cells vary anyway",
-         "not measured: taken over from the code before constants were listed"},
+         "the same, in addition, of one that is not certain at all, whose cells vary anyway", "What each rule decides"},
         {&LatticeTuning::farthest, "farthest", "steps along both vectors",
          "in which a course may run. Higher: bonds of many bricks have courses, too; lower: less chance",
-         "not measured: taken over from the code before constants were listed", 1, 1000},
+         "What each rule decides", 1, 1000},
     });
 
 /// Of the matrix that has these two columns.
@@ -120,17 +105,6 @@ Lattice Lattice::level_bands(bool courses) const {
   return {1, courses ? Vector2d{0, period} : Vector2d{period, 0}, {}, certainty};
 }
 
-double Lattice::longest_step() const {
-  if (rank != 2) return 0;
-  const double least = lattice_tuning->least_offset;
-  const auto nearer = [least](double a, double b) {
-    a = std::abs(a);
-    b = std::abs(b);
-    return std::min(a, b) >= least ? std::min(a, b) : std::max(a, b);
-  };
-  return cell_area() / std::max(least, std::min(nearer(first.x(), second.x()), nearer(first.y(), second.y())));
-}
-
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
   const auto whole = [](double cells, bool wraps) { return wraps ? std::floor(cells + 0.5) : cells; };
   const double w = size.width, h = size.height;
@@ -156,9 +130,7 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
 
 bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) const {
   const auto comes_back = [&](int length, bool along_x) {
-    const Vector2d e = misfit(length, along_x);
-    const double along = std::abs(e[along_x ? 0 : 1]), across = std::abs(e[along_x ? 1 : 0]);
-    return along <= precision && across <= std::max(lattice_tuning->least_shear, lattice_tuning->most_shear * length);
+    return misfit(length, along_x).lpNorm<Eigen::Infinity>() <= precision;
   };
   return (!wraps_x || comes_back(size.width, true)) && (!wraps_y || comes_back(size.height, false));
 }

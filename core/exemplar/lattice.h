@@ -43,12 +43,10 @@ struct Lattice {
   bool comes_once(Size exemplar) const { return first.x() >= exemplar.width || first.y() >= exemplar.height; }
   /// Whether its cell is the whole exemplar.
   bool is_single_cell(Size exemplar) const { return rank == 2 && cell_area() > 0.99 * double(exemplar.area()); }
-  /// Of rank 2: how far along x or y, the farther of the two, it comes back: the length of a brick in its course.
-  double longest_step() const;
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
   Lattice fitted(Size size, bool wraps_x, bool wraps_y) const;
-  /// Whether a surface of `size` holds a whole number of cells along each axis in which it wraps: to `precision` pixels
-  /// along the axis, and across it with a shear too small to see.
+  /// Whether a surface of `size` holds a whole number of cells along each axis in which it wraps, to `precision` pixels
+  /// along it and across.
   bool fits(Size size, bool wraps_x, bool wraps_y, double precision = 1) const;
 
   /// By how many pixels a surface that wraps after `length` pixels along x or y misses a whole number of cells. Rank 1

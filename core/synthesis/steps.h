@@ -30,7 +30,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 39;
+inline constexpr int synthesis_version = 40;
 
 /// The finest level that is worked out for the plane as a whole. Of finer ones only the blocks that they start from
 /// are: there bricks and elements are laid, and seams moved for the last time.

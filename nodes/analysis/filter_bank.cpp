@@ -54,7 +54,7 @@ OutputForecasts infer_filter_bank(const Params& params, const InputForecasts& in
 NodeType filter_bank_node() {
   NodeType t;
   t.name = "filter_bank";
-  t.version = 8;
+  t.version = 9;
   t.category = "analysis";
   t.summary = "Responses to edges, lines and blobs of several sizes (MR8)";
   t.help =

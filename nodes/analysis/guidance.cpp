@@ -47,7 +47,7 @@ OutputForecasts infer_guidance(const Params& params, const InputForecasts& input
 NodeType guidance_node() {
   NodeType t;
   t.name = "guidance";
-  t.version = 10;
+  t.version = 11;
   t.category = "analysis";
   t.summary = "Extracts edges and the signed feature distance from a material's maps";
   t.help =

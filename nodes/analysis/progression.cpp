@@ -31,7 +31,7 @@ OutputForecasts infer_progression(const Params& params, const InputForecasts& in
 NodeType progression_node() {
   NodeType t;
   t.name = "progression";
-  t.version = 8;
+  t.version = 9;
   t.category = "analysis";
   t.summary = "A smooth control map of how an exemplar changes: wear, moisture, density";
   t.help =

@@ -68,7 +68,7 @@ OutputForecasts infer_weight(const Params& params, const InputForecasts& inputs)
 NodeType weight_node() {
   NodeType t;
   t.name = "weight";
-  t.version = 10;
+  t.version = 11;
   t.category = "analysis";
   t.summary = "Weights the maps of a material for analysis";
   t.help =

@@ -125,7 +125,7 @@ NodeType noise_by_example_node() {
   NodeType t;
   t.name = "noise_by_example";
   t.category = "synthesis";
-  t.version = 4;
+  t.version = 5;
   t.summary = "Makes a surface of any size from an exemplar without structure, without a layout";
   t.help =
       "For sand, soil, plaster, granite, fine gravel: samples of the exemplar at random places are blended, three at "

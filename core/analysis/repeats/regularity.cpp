@@ -62,7 +62,7 @@ const Tunable<RegularityTuning> regularity_tuning(
         {&RegularityTuning::least_sure_stripes, "least_sure_stripes", "certainty",
          "of stripes aslant. Higher: fewer are found; lower: those that are only a part of "
          "what is shown, as of a door, are taken for all",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&RegularityTuning::least_turned, "least_turned", "share of the correlation",
          "of orientations that turned cells lack. Higher: they are taken for one another; "
          "lower: threads of a weave are told apart by chance",

@@ -54,7 +54,7 @@ const Tunable<WrapDetectionTuning> wrap_detection_tuning(
          "What each rule decides"},
         {&WrapDetectionTuning::most_excess, "most_excess", "share of a side",
          "by which cells may come out uneven. Higher: less is denied; lower: imprecise lattices deny what wraps",
-         "not measured: taken over from the code before constants were listed"},
+         "What each rule decides"},
         {&WrapDetectionTuning::quick_slack, "quick_slack", "of the distance",
          "by which a quick search may miss the nearest window. Higher: it takes less time but decides less",
          "wrap_detection", 0, 10},

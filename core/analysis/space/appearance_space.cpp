@@ -33,7 +33,7 @@ const Tunable<AppearanceSpaceTuning> appearance_space_tuning(
         {&AppearanceSpaceTuning::clipped, "clipped", "deviations",
          "of the first component, beyond which vectors are clipped. Higher: outliers differ from one another; lower: "
          "the usual is stored more finely",
-         "not measured: taken over from the code before constants were listed", 1},
+         "What each rule decides", 1},
         {&AppearanceSpaceTuning::most_samples, "most_samples", "pixels",
          "of which components are learnt. Higher: rare features have a say; costs time",
          "not measured: bounds the time", 100},
@@ -242,23 +242,6 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
   }
   return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), repeats,
                           std::move(fingerprint), features.elements(), size);
-}
-
-PixelChannels pixel_channels(const AppearanceLevel& level, int most) {
-  const size_t n = level.mean.size(), all = n / window, middle = window / 2 * all;
-  PixelChannels out{std::min(most, int(all)), {}};
-  const auto count = size_t(out.channels);
-  out.values.resize(level.vectors.size() * count);
-  tbb::parallel_for(0, level.size.height, [&](int y) {
-    for (size_t i = size_t(y) * level.size.width; i < size_t(y + 1) * level.size.width; i++)
-      for (size_t c = 0; c < count; c++) {
-        double sum = level.mean[middle + c];
-        for (int d = 0; d < level.dimensions; d++)
-          sum += level.vectors[i][size_t(d)] / level.scale * level.basis[size_t(d) * n + middle + c];
-        out.values[i * count + c] = float(sum);
-      }
-  });
-  return out;
 }
 
 }  // namespace terrazzo

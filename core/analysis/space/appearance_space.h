@@ -26,12 +26,4 @@ int appearance_levels(Size exemplar);
 AppearancePtr make_appearance(const Features& features, const std::vector<ImagePtr>& guidance,
                               const AppearanceOptions& options, const Task& task);
 
-/// The channels of single pixels, reconstructed from appearance vectors: `channels` values per pixel, row by row; at
-/// most the first `most` channels.
-struct PixelChannels {
-  int channels = 0;
-  std::vector<float> values;
-};
-PixelChannels pixel_channels(const AppearanceLevel& level, int most);
-
 }  // namespace terrazzo

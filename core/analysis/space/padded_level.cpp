@@ -15,7 +15,7 @@ const Tunable<PaddedLevelTuning> padded_level_tuning(
                         {&PaddedLevelTuning::coarse_side, "coarse_side", "pixels",
                          "of a level, up to which places keep off the border by one pixel, not two. Higher: "
                          "more places; lower: windows see less of what is mirrored beyond the border",
-                         "not measured: taken over from the code before constants were listed"},
+                         "What each rule decides"},
                     });
 
 /// The coordinate that one beyond the border shows.

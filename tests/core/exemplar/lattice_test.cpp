@@ -105,14 +105,6 @@ TEST_CASE("on a surface that wraps around the lattice is stretched to whole cell
   CHECK(phase.penalty(0, 150, 0, 155) == 1);
 }
 
-TEST_CASE("a lattice knows the length of its bricks, lying and standing") {
-  CHECK(Lattice{2, {128, 0}, {64, 43}, 1}.longest_step() == doctest::Approx(128));
-  CHECK(Lattice{2, {64, -43}, {64, 43}, 1}.longest_step() == doctest::Approx(128));
-  CHECK(Lattice{2, {43, 64}, {43, -64}, 1}.longest_step() == doctest::Approx(128));
-  CHECK(Lattice{2, {43.1, 0.3}, {-0.1, 47.8}, 1}.longest_step() == doctest::Approx(47.8).epsilon(0.01));
-  CHECK(courses(6).longest_step() == 0);
-}
-
 TEST_CASE("a lattice knows its level courses and its columns, and how they run") {
   const Lattice bricks{2, {128, 1}, {64, 43}, 1};
   CHECK(bricks.along_bands(true).x() == doctest::Approx(128));

@@ -1,7 +1,5 @@
 #include "core/analysis/space/appearance_space.h"
 
-#include <cmath>
-
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
@@ -74,26 +72,4 @@ TEST_CASE("guidance counts the same in pixels as in parts of their greatest") {
     return make_appearance(*features, {guide}, {}, Task())->levels()[2].vectors;
   };
   CHECK(guided(1.0f) == guided(1.0f / 64));
-}
-
-TEST_CASE("appearance vectors tell what their pixels show themselves") {
-  const ImagePtr image = wall({48, 40});
-  const std::vector<float> shown = image->pixels();
-  const AppearancePtr appearance = make_appearance(*plain_features(image), {}, {}, Task());
-  const PixelChannels all = pixel_channels(appearance->levels()[0], 12);
-  REQUIRE(all.channels == 3);
-  REQUIRE(all.values.size() == size_t(48) * 40 * 3);
-  // Channels are scaled and moved, all alike or each on its own.
-  for (size_t c = 0; c < 3; c++) {
-    double a = 0, b = 0, aa = 0, ab = 0, bb = 0, n = 0;
-    for (size_t i = c; i < shown.size(); i += 3, n++) {
-      a += all.values[i];
-      b += shown[i];
-      aa += all.values[i] * all.values[i];
-      ab += all.values[i] * shown[i];
-      bb += shown[i] * shown[i];
-    }
-    CHECK((ab - a * b / n) / std::sqrt((aa - a * a / n) * (bb - b * b / n)) > 0.95);
-  }
-  CHECK(pixel_channels(appearance->levels()[0], 2).channels == 2);
 }
