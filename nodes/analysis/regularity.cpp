@@ -162,6 +162,9 @@ void compute_regularity(NodeContext& node) {
         "the exemplar is a single cell of its lattice: a result repeats it as it is, with few variations{}. An "
         "exemplar that shows several tiles or panels side by side helps",
         features->wraps() ? "" : ", and shows where its borders meet, as it does not tile"));
+  else if (const Lattice& l = repeats.lattice; l.rank == 1 && l.comes_once(features->size()))
+    node.note(fmt::format("the exemplar is a single {}: a result repeats it {}", l.first.x() != 0 ? "column" : "course",
+                          l.first.x() != 0 ? "from left to right" : "downwards"));
   const FeaturesPtr known = features->with(repeats);
   // Where joints cross and nothing repeats, a border may be a frame. A mask would part streaks.
   const bool may_be_framed = repeats.lattice.rank == 0 && too_few;

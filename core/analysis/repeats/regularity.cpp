@@ -180,9 +180,9 @@ Lattice with_through_lines(const Planes& planes, const Lattice& found, double le
   const Vector2d right{step(columns, found.first.x(), planes.size.width), 0};
   const Vector2d down{0, step(rows, found.first.y(), planes.size.height)};
   const double certainty = std::max(found.certainty, 1 - 0.5 / std::max(rows, columns));
-  const bool cells = right.x() > 0 && down.y() > 0;
-  if ((cells ? 2 : right == down ? 0 : 1) <= found.rank || certainty < least_certainty) return found;
-  return cells ? Lattice{2, right, down, certainty} : Lattice{1, right + down, {}, certainty};
+  const int rank = int(right.x() > 0) + int(down.y() > 0);
+  if (rank <= found.rank || certainty < least_certainty) return found;
+  return rank == 2 ? Lattice{2, right, down, certainty} : Lattice{1, right + down, {}, certainty};
 }
 
 /// The lattice, or a multiple of it if its cells are turned or mirrored: the columns of a chevron floor.

@@ -327,8 +327,10 @@ TEST_CASE("a foot of a wall with a sharp edge is left out if asked for, and else
   for (const bool asked : {true, false}) {
     CAPTURE(asked);
     const Params params = asked ? Params{{"borders", "auto"}} : Params{};
-    const auto out = run_node("regularity", params, {{"features", {features}}}).get<Features>("features");
+    const NodeRun run = run_node("regularity", params, {{"features", {features}}});
+    const auto out = run.get<Features>("features");
     CHECK((out->mask() != nullptr) == asked);
     CHECK(out->repeats().lattice.rank == (asked ? 0 : 1));
+    CHECK(run.says("a single course: a result repeats it downwards") == !asked);
   }
 }
