@@ -171,9 +171,10 @@ double highest_from(const Correlation& r, int least_lag) {
 /// column; where they cross, or go across bands, there are cells, unless the exemplar does not tile. `found` if there
 /// are none.
 Lattice with_through_lines(const Planes& planes, const Lattice& found, double least_certainty) {
+  // Cells of what does not tile would come with its borders.
+  if (!planes.wraps && found.rank > 0) return found;
   const double rows = strongest_line(planes, true), columns = strongest_line(planes, false);
-  // Cut bricks and stones would come with their borders.
-  if (!planes.wraps && (found.rank > 0 || std::min(rows, columns) >= 1)) return found;
+  if (!planes.wraps && std::min(rows, columns) >= 1) return found;
   const auto step = [](double lines, double found_step, int all) {
     return found_step > 0 || lines < 1 ? found_step : all;
   };
